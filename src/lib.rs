@@ -1,0 +1,9 @@
+//! Self-excited, friction-damped oscillators: exact solution, Rapier simulation, cross-check and film.
+
+#![forbid(unsafe_code)]
+#![warn(missing_debug_implementations)]
+
+pub mod dynamics;
+pub mod model;
+#[cfg(feature = "render")]
+pub mod render;

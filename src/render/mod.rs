@@ -1,0 +1,7 @@
+//! Drawing without a window: knows shapes, lines and text, and no physics.
+
+mod draw_list;
+
+pub use draw_list::{
+    Anchor, Background, Camera, Colour, DrawList, Light, Material, Mesh, Object, OverlayItem, Rectangle, Stroke,
+};
