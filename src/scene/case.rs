@@ -1,0 +1,177 @@
+//! A scene made ready: validated, non-dimensional, with the units to go back.
+
+use super::description::{Engine, Film, Initial, Scene};
+use super::error::Fault;
+use crate::model::{ParameterError, PrescribedMotion, Range, RigParameters, Scales};
+use serde::Serialize;
+
+/// More frames than an hour at 60 frames a second are a mistake in `speed`.
+const MAX_FRAMES: u64 = 216_000;
+/// Steps a run may take: half an hour at 2 microseconds each.
+const MAX_STEPS: f64 = 1e9;
+/// Largest side of a picture, pixels: 8K.
+const MAX_SIDE: u64 = 7680;
+
+/// A scene with every number checked and non-dimensional. Multiply by [`Scales`] to return to the units of the file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Case {
+    pub title: String,
+    pub caption: String,
+    pub parameters: RigParameters,
+    /// Unity for a non-dimensional scene.
+    #[serde(skip)]
+    pub scales: Scales,
+    pub initial: Initial,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prescribed: Option<PrescribedMotion>,
+    pub duration: f64,
+    pub amplitude_bound: f64,
+    pub engine: Engine,
+    /// Step of the engine.
+    pub step: f64,
+    /// States are compared up to here.
+    pub horizon: f64,
+    pub film: Film,
+}
+
+/// The path of the field at fault, and the fault.
+pub(super) type Refusal = (String, Fault);
+
+fn checked(range: Range, path: &'static str, value: f64) -> Result<f64, Refusal> {
+    let name = path.rsplit('.').next().unwrap_or(path);
+    range.check(name, value).map_err(|fault| (path.to_owned(), fault.into()))
+}
+
+fn whole(path: &'static str, found: u64, least: u64, most: u64, allowed: &'static str) -> Result<(), Refusal> {
+    let field = path.rsplit('.').next().unwrap_or(path);
+    if (least..=most).contains(&found) {
+        Ok(())
+    } else {
+        Err((path.to_owned(), Fault::Whole { field, found, allowed }))
+    }
+}
+
+/// Prefixes the field of a parameter error with its table.
+fn within(table: &'static str) -> impl Fn(ParameterError) -> Refusal {
+    move |fault| match &fault {
+        ParameterError::OutOfRange { field, .. } => (format!("{table}.{field}"), fault.into()),
+        _ => (table.to_owned(), fault.into()),
+    }
+}
+
+impl Scene {
+    pub(super) fn resolve(&self) -> Result<Case, Refusal> {
+        let (parameters, scales) = self.rig_and_scales()?;
+        let duration = checked(Range::Positive, "simulation.duration", self.simulation.duration)? / scales.time;
+        let amplitude_bound =
+            checked(Range::Positive, "simulation.amplitude_bound", self.simulation.amplitude_bound)? / scales.length;
+        let horizon = match self.check.horizon {
+            Some(horizon) => (checked(Range::Positive, "check.horizon", horizon)? / scales.time).min(duration),
+            None => duration,
+        };
+        let case = Case {
+            title: self.title.clone(),
+            caption: self.caption.clone(),
+            parameters,
+            scales,
+            initial: self.initial_state(&scales)?,
+            prescribed: self.prescribed_motion(&scales)?,
+            duration,
+            amplitude_bound,
+            engine: self.engine,
+            step: self.step(&scales)?,
+            horizon,
+            film: self.film_settings(&scales)?,
+        };
+        case.check_lengths()?;
+        Ok(case)
+    }
+
+    fn rig_and_scales(&self) -> Result<(RigParameters, Scales), Refusal> {
+        match (self.rig, self.rig_si) {
+            (Some(_), Some(_)) => Err(("rig_si".to_owned(), Fault::TwoRigs)),
+            (None, Some(rig)) => {
+                Ok((rig.parameters().map_err(within("rig_si"))?, rig.scales().map_err(within("rig_si"))?))
+            }
+            (rig, None) => Ok((rig.unwrap_or_default().validated().map_err(within("rig"))?, Scales::UNITY)),
+        }
+    }
+
+    fn initial_state(&self, scales: &Scales) -> Result<Initial, Refusal> {
+        match self.initial {
+            Initial::LimitCycle { perturbation } => {
+                let perturbation = checked(Range::Finite, "initial.perturbation", perturbation)? / scales.length;
+                Ok(Initial::LimitCycle { perturbation })
+            }
+            Initial::State { state } => {
+                for value in state {
+                    checked(Range::Finite, "initial.state", value)?;
+                }
+                if state[4].abs() > scales.slip_force {
+                    let fault = Fault::BeyondSlipForce { found: state[4], allowed: scales.slip_force };
+                    return Err(("initial.state".to_owned(), fault));
+                }
+                let units = [scales.length, scales.length, scales.velocity, scales.velocity, scales.slip_force];
+                Ok(Initial::State { state: std::array::from_fn(|i| state[i] / units[i]) })
+            }
+        }
+    }
+
+    fn prescribed_motion(&self, scales: &Scales) -> Result<Option<PrescribedMotion>, Refusal> {
+        let Some(motion) = self.prescribed else { return Ok(None) };
+        let PrescribedMotion { amplitude, angular_frequency } = motion.validated().map_err(within("prescribed"))?;
+        Ok(Some(PrescribedMotion {
+            amplitude: amplitude / scales.length,
+            angular_frequency: angular_frequency * scales.time,
+        }))
+    }
+
+    fn step(&self, scales: &Scales) -> Result<f64, Refusal> {
+        whole("engine.substeps", self.engine.substeps as u64, 1, 64, "1 to 64")?;
+        match self.engine.dt {
+            Some(dt) => Ok(checked(Range::Positive, "engine.dt", dt)? / scales.time),
+            None => {
+                let steps = checked(Range::Positive, "engine.steps_per_period", self.engine.steps_per_period)?;
+                Ok(std::f64::consts::TAU / steps)
+            }
+        }
+    }
+
+    fn film_settings(&self, scales: &Scales) -> Result<Film, Refusal> {
+        let film = self.film;
+        for (path, side) in [("film.width", film.width), ("film.height", film.height)] {
+            whole(path, side.into(), 64, MAX_SIDE, "an even number from 64 to 7680")?;
+            whole(path, u64::from(side % 2) * u64::from(side), 0, 0, "an even number from 64 to 7680")?;
+        }
+        whole("film.fps", film.fps.into(), 1, 240, "1 to 240")?;
+        let speed = checked(Range::Positive, "film.speed", film.speed)? / scales.time;
+        Ok(Film { speed, ..film })
+    }
+}
+
+impl Case {
+    /// Time between two frames.
+    #[must_use]
+    pub fn frame_interval(&self) -> f64 {
+        self.film.speed / f64::from(self.film.fps)
+    }
+
+    /// Frames in the whole film: one at time 0, the last one not after the end.
+    #[must_use]
+    pub fn frame_count(&self) -> u64 {
+        // A frame that rounding puts just after the end still belongs to the film.
+        (self.duration / self.frame_interval() + 1e-9).floor() as u64 + 1
+    }
+
+    fn check_lengths(&self) -> Result<(), Refusal> {
+        let frames = self.duration / self.frame_interval();
+        if frames > MAX_FRAMES as f64 {
+            return Err(("film.speed".to_owned(), Fault::FrameCount { found: frames, allowed: MAX_FRAMES }));
+        }
+        let steps = self.duration / self.step;
+        if steps > MAX_STEPS {
+            return Err(("simulation.duration".to_owned(), Fault::StepCount { found: steps, allowed: MAX_STEPS }));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,19 @@
+//! Scene files: TOML, checked field by field, with a JSON Schema.
+
+mod case;
+mod description;
+mod error;
+mod load;
+
+pub use case::Case;
+pub use description::{Check, Engine, Film, Initial, Joints, Precision, Scene, Scheme, Simulation};
+pub use error::{Fault, Place, SceneError};
+pub use load::BUILT_IN;
+
+impl Scene {
+    /// JSON Schema of scene files.
+    #[must_use]
+    pub fn json_schema() -> serde_json::Value {
+        schemars::schema_for!(Self).to_value()
+    }
+}
