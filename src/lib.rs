@@ -5,6 +5,9 @@
 
 pub mod dynamics;
 pub mod model;
+pub mod orbit;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod scene;
+#[cfg(feature = "render")]
+pub mod stage;

@@ -3,7 +3,7 @@
 use super::description::{Engine, Film, Initial, Scene};
 use super::error::Fault;
 use crate::model::{ParameterError, PrescribedMotion, Range, RigParameters, Scales};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// More frames than an hour at 60 frames a second are a mistake in `speed`.
 const MAX_FRAMES: u64 = 216_000;
@@ -13,16 +13,15 @@ const MAX_STEPS: f64 = 1e9;
 const MAX_SIDE: u64 = 7680;
 
 /// A scene with every number checked and non-dimensional. Multiply by [`Scales`] to return to the units of the file.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Case {
     pub title: String,
     pub caption: String,
     pub parameters: RigParameters,
     /// Unity for a non-dimensional scene.
-    #[serde(skip)]
     pub scales: Scales,
     pub initial: Initial,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prescribed: Option<PrescribedMotion>,
     pub duration: f64,
     pub amplitude_bound: f64,

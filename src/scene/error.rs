@@ -25,7 +25,7 @@ impl std::fmt::Display for Place {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.line {
             Some(line) => write!(f, ", line {line}, field {}", self.field),
-            None => write!(f, ", field {} (left to its default)", self.field),
+            None => write!(f, ", field {}", self.field),
         }
     }
 }

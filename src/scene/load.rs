@@ -45,12 +45,25 @@ impl Scene {
             line: error.span().map_or(1, |span| line_at(text, span.start)),
             message: error.to_string().trim_end().to_owned(),
         })?;
-        let case = scene.resolve().map_err(|(field, fault)| SceneError::Parameter {
+        let case = scene.check(text, origin)?;
+        Ok((scene, case))
+    }
+
+    /// Checks a scene whose fields may have been changed since it was read.
+    ///
+    /// # Errors
+    /// [`SceneError::Parameter`] with `origin` and field.
+    pub fn checked(&self, origin: &str) -> Result<Case, SceneError> {
+        self.check("", origin)
+    }
+
+    /// `text` serves to find the line of a field at fault.
+    fn check(&self, text: &str, origin: &str) -> Result<Case, SceneError> {
+        self.resolve().map_err(|(field, fault)| SceneError::Parameter {
             origin: origin.to_owned(),
             place: Place { line: line_of(text, &field), field },
             fault,
-        })?;
-        Ok((scene, case))
+        })
     }
 }
 

@@ -1,0 +1,71 @@
+//! The command line: one file per command. The only place that prints.
+
+mod case_args;
+mod common;
+mod film;
+mod generate;
+mod motions;
+mod progress;
+mod render;
+mod run;
+mod simulate;
+mod trajectory_table;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+use tracing_subscriber::EnvFilter;
+
+/// Self-excited, friction-damped oscillators: exact solution, Rapier simulation, cross-check and film.
+#[derive(Debug, Parser)]
+#[command(name = "stickslip", version, max_term_width = 110, after_help = "Example:\n  stickslip run        the main job with the built-in scene, into renders/limit_torus")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::RunArgs),
+    Simulate(simulate::SimulateArgs),
+    Render(render::RenderArgs),
+    /// Print the JSON Schema of scene files.
+    Schema(generate::SchemaArgs),
+    /// Print shell completions.
+    Completions(generate::CompletionsArgs),
+    /// Print the manual page.
+    Man,
+}
+
+/// How a command that could run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    Done,
+    /// A check or comparison failed.
+    Failed,
+}
+
+/// Parses the command line, runs the command and returns its exit status: 0 done, 1 a check failed, 2 bad input or could not run.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    // wgpu's back ends log what they try and do not find; the choice of adapter is reported by ourselves.
+    let filter = EnvFilter::try_from_default_env()
+        .unwrap_or_else(|_| EnvFilter::new("warn,wgpu_core=off,wgpu_hal=off,wgpu=off,naga=off"));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    let result = match cli.command {
+        Command::Run(args) => run::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
+        Command::Render(args) => render::run(&args),
+        Command::Schema(args) => generate::schema(&args),
+        Command::Completions(args) => generate::completions(&args),
+        Command::Man => generate::man(),
+    };
+    match result {
+        Ok(Verdict::Done) => ExitCode::SUCCESS,
+        Ok(Verdict::Failed) => ExitCode::from(1),
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}

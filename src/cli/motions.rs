@@ -1,0 +1,91 @@
+//! A case set in motion: by the engine and by the exact solution, from the same start and sampled at the same times.
+
+use crate::dynamics::{Flow, Sampling, State, Trajectory};
+use crate::engine::{self, EngineFlow, EngineInfo, EngineSettings, Recording};
+use crate::exact;
+use crate::model::{RigParameters, TwoMassRig};
+use crate::orbit::{OrbitError, PeriodicOrbit, limit_cycle};
+use crate::scene::{Case, Initial, Joints, Precision, Scheme};
+use anyhow::Context;
+
+/// Longest time between two samples of a filmed motion: lines drawn through them look smooth.
+const FINEST: f64 = 0.04;
+
+/// The limit cycle of the two-mass rig from the exact flow.
+pub fn exact_limit_cycle(parameters: RigParameters) -> Result<PeriodicOrbit, OrbitError> {
+    limit_cycle(parameters, |p| Ok(exact::TwoMassFlow::new(&TwoMassRig::new(p)?)))
+}
+
+/// The state at time 0.
+pub fn start(case: &Case) -> anyhow::Result<State> {
+    if let (Some(motion), Initial::State { state }) = (case.prescribed, case.initial) {
+        return Ok(State::two_mass([0.0, 0.0, motion.velocity(0.0), 0.0, state[4]]));
+    }
+    match case.initial {
+        Initial::State { state } => Ok(State::two_mass(state)),
+        Initial::LimitCycle { perturbation } => {
+            let orbit = exact_limit_cycle(case.parameters)
+                .context("the motion was to start on the limit cycle: give an initial state instead")?;
+            let mut state = orbit.reversal();
+            state.positions[1] += perturbation;
+            Ok(state)
+        }
+    }
+}
+
+/// Sampling of a filmed motion: a whole number of samples per frame.
+pub fn film_sampling(case: &Case) -> Sampling {
+    let frame = case.frame_interval();
+    Sampling { interval: frame / (frame / FINEST).ceil(), t_end: case.duration }
+}
+
+/// Engine settings of a case. Where the scene leaves the step free it divides the sampling interval, so that no sample needs
+/// interpolation.
+pub fn engine_settings(case: &Case, sampling: Sampling) -> EngineSettings {
+    let step = match case.engine.dt {
+        Some(_) => case.step,
+        None => EngineSettings::dividing(sampling.interval, case.step).step,
+    };
+    EngineSettings {
+        step,
+        substeps: case.engine.substeps,
+        precision: match case.engine.precision {
+            Precision::F32 => engine::Precision::Single,
+            Precision::F64 => engine::Precision::Double,
+        },
+        joints: match case.engine.joints {
+            Joints::Impulse => engine::Joints::Impulse,
+            Joints::Multibody => engine::Joints::Multibody,
+        },
+        scheme: match case.engine.scheme {
+            Scheme::SecondOrder => engine::Scheme::SecondOrder,
+            Scheme::Plain => engine::Scheme::Plain,
+        },
+    }
+}
+
+/// The motion in Rapier.
+pub fn in_engine(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result<Recording> {
+    let rig = TwoMassRig::new(case.parameters)?;
+    let settings = engine_settings(case, sampling);
+    Ok(match case.prescribed {
+        Some(motion) => engine::PrescribedFlow::new(rig.chain(), motion, settings)?.record(start, sampling)?,
+        None => EngineFlow::new(rig.chain(), settings)?
+            .with_amplitude_bound(case.amplitude_bound)?
+            .record(start, sampling)?,
+    })
+}
+
+/// The exact motion.
+pub fn exactly(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result<Trajectory> {
+    let rig = TwoMassRig::new(case.parameters)?;
+    Ok(match case.prescribed {
+        Some(motion) => exact::PrescribedFlow::new(rig.chain(), motion)?.trajectory(start, sampling)?,
+        None => exact::TwoMassFlow::new(&rig).with_amplitude_bound(case.amplitude_bound)?.trajectory(start, sampling)?,
+    })
+}
+
+/// Name and version of the engine a case asks for.
+pub fn engine_info(settings: &EngineSettings) -> EngineInfo {
+    EngineInfo::of(settings.precision)
+}

@@ -1,0 +1,57 @@
+//! Progress on standard error: a bar on a terminal, a plain line now and then elsewhere, nothing with `-q`.
+
+use crate::film;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Time between two plain lines.
+const HEARTBEAT: Duration = Duration::from_secs(5);
+
+pub enum Progress {
+    Bar(ProgressBar),
+    Plain { last: Option<Instant> },
+    Silent,
+}
+
+impl Progress {
+    pub fn new(quiet: bool) -> Self {
+        if quiet {
+            return Self::Silent;
+        }
+        if !std::io::stderr().is_terminal() {
+            return Self::Plain { last: None };
+        }
+        let style = ProgressStyle::with_template("{prefix} [{bar:40}] {pos}/{len} frames, {per_sec}, {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        Self::Bar(ProgressBar::new(0).with_style(style.progress_chars("=> ")).with_prefix("film"))
+    }
+
+    /// One line of news.
+    pub fn say(&self, line: &str) {
+        match self {
+            Self::Bar(bar) => bar.suspend(|| eprintln!("{line}")),
+            Self::Plain { .. } => eprintln!("{line}"),
+            Self::Silent => {}
+        }
+    }
+
+    pub fn frame(&mut self, at: film::Progress) {
+        match self {
+            Self::Bar(bar) => {
+                bar.set_length(at.total);
+                bar.set_position(at.done);
+                if at.done == at.total {
+                    bar.finish();
+                }
+            }
+            Self::Plain { last } => {
+                if at.done == at.total || last.is_none_or(|last| last.elapsed() >= HEARTBEAT) {
+                    eprintln!("film: {} of {} frames ({} reused)", at.done, at.total, at.reused);
+                    *last = Some(Instant::now());
+                }
+            }
+            Self::Silent => {}
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! `render`: frames and film of a scene or a stored trajectory, without the cross-check.
+
+use super::case_args::{EngineArgs, FilmArgs, RigArgs, check, load};
+use super::common::{Common, Document, print};
+use super::film::{self, DrawArgs};
+use super::progress::Progress;
+use super::run::default_directory;
+use super::trajectory_table::from_table;
+use super::{Verdict, motions};
+use crate::dynamics::Trajectory;
+use crate::scene::Case;
+use crate::store::{Existing, Origin, OutputDir, read_table};
+use anyhow::{Context, ensure};
+use clap::{Args, ValueEnum};
+use serde_json::json;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Solver {
+    Exact,
+    Rapier,
+}
+
+/// Make frames and film of a scene or a stored trajectory. Finished frames are kept and not drawn again.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  stickslip render scenes/chaos.toml --with exact -o renders/chaos\n  \
+    stickslip simulate --xi1 -0.1 --sample 0.04 -o t.csv && stickslip render --trajectory t.csv -o renders/t")]
+pub struct RenderArgs {
+    /// Scene file; the built-in scene without it.
+    scene: Option<PathBuf>,
+    /// A trajectory written by `simulate`, in place of a scene.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "solver"])]
+    trajectory: Option<PathBuf>,
+    /// Which solution to show.
+    #[arg(long = "with", id = "solver", value_enum, default_value_t = Solver::Rapier)]
+    solver: Solver,
+    #[command(flatten)]
+    rig: RigArgs,
+    #[command(flatten)]
+    engine: EngineArgs,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    draw: DrawArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
+    let mut progress = Progress::new(args.common.quiet);
+    let (case, trajectory) = match &args.trajectory {
+        Some(path) => args.stored(path)?,
+        None => args.computed()?,
+    };
+    let directory = args
+        .common
+        .output
+        .clone()
+        .unwrap_or_else(|| default_directory(args.scene.as_deref().or(args.trajectory.as_deref())));
+    let solver = if args.solver == Solver::Exact { "exact" } else { "rapier" };
+    let parameters = json!({ "case": case, "with": solver, "trajectory": args.trajectory });
+    let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
+    let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
+    let made = film::make(&case, &trajectory, &args.draw, &output, &mut progress)?;
+    if args.common.json {
+        let document =
+            Document::new("render", parameters).with("frames", made.frames_json()).with("files", json!(output.files()));
+        print(&document.text()?)?;
+    } else {
+        print(&format!("{}", made.report.film.as_deref().unwrap_or(&directory).display()))?;
+    }
+    Ok(Verdict::Done)
+}
+
+impl RenderArgs {
+    fn computed(&self) -> anyhow::Result<(Case, Trajectory)> {
+        let mut scene = load(self.scene.as_deref())?;
+        self.rig.apply(&mut scene)?;
+        self.engine.apply(&mut scene);
+        self.film.apply(&mut scene);
+        let case = check(&scene, self.scene.as_deref())?;
+        let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));
+        let trajectory = match self.solver {
+            Solver::Exact => motions::exactly(&case, &start, sampling)?,
+            Solver::Rapier => motions::in_engine(&case, &start, sampling)?.trajectory,
+        };
+        Ok((case, trajectory))
+    }
+
+    fn stored(&self, path: &Path) -> anyhow::Result<(Case, Trajectory)> {
+        let fault = || format!("trajectory {}", path.display());
+        let (mut case, trajectory) = from_table(&read_table(path)?).with_context(fault)?;
+        ensure!(
+            self.film.t_end.is_none(),
+            "--t-end cannot change a stored trajectory: give it to `simulate`, or a scene to `render`"
+        );
+        let mut film = crate::scene::Film::default();
+        [film.width, film.height] = self.film.size.unwrap_or([film.width, film.height]);
+        film.fps = self.film.fps.unwrap_or(film.fps);
+        film.speed = self.film.speed.map_or(film.speed, |speed| speed / case.scales.time);
+        case.film = film;
+        Ok((case, trajectory))
+    }
+}

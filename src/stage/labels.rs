@@ -1,0 +1,92 @@
+//! Words over the scene: headline, parameters, time, contact state, energy.
+
+use super::motion::Instant;
+use super::{contact_colour, palette};
+use crate::model::Scales;
+use crate::render::{Anchor, Colour, OverlayItem, Rectangle, text_width};
+use crate::scene::Case;
+use glam::Vec2;
+
+fn text(position: Vec2, size: f32, colour: Colour, bold: bool, text: String) -> OverlayItem {
+    OverlayItem::Text { position, anchor: Anchor::Left, size, colour, bold, text }
+}
+
+/// Headline and caption, top left; the caption breaks into lines that fit `width`.
+pub fn draw_headline(case: &Case, origin: Vec2, width: f32, scale: f32, out: &mut Vec<OverlayItem>) {
+    out.push(text(origin + Vec2::new(0.0, 26.0) * scale, 28.0 * scale, palette::TEXT, true, case.title.clone()));
+    for (row, line) in wrap(&case.caption, 15.0 * scale, width).into_iter().enumerate() {
+        let place = origin + Vec2::new(0.0, 52.0 + 20.0 * row as f32) * scale;
+        out.push(text(place, 15.0 * scale, palette::FAINT_TEXT, false, line));
+    }
+}
+
+/// Breaks a text between words into lines no wider than `width`.
+fn wrap(words: &str, size: f32, width: f32) -> Vec<String> {
+    words.split_whitespace().fold(Vec::new(), |mut lines: Vec<String>, word| {
+        match lines.last_mut() {
+            Some(line) if text_width(&format!("{line} {word}"), size, false) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+        lines
+    })
+}
+
+/// Contact state, time and parameters, bottom left.
+pub fn draw_status(case: &Case, now: &Instant, origin: Vec2, scale: f32, out: &mut Vec<OverlayItem>) {
+    let colour = contact_colour(now.contact);
+    let word = if now.contact.is_stick() { "STICK" } else { "SLIP" };
+    let chip = Rectangle { min: origin, max: origin + Vec2::new(78.0, 28.0) * scale };
+    out.push(OverlayItem::Box { area: chip, corner_radius: 14.0 * scale, fill: colour, stroke: None });
+    out.push(OverlayItem::Text {
+        position: origin + Vec2::new(39.0, 19.5) * scale,
+        anchor: Anchor::Centre,
+        size: 15.0 * scale,
+        colour: palette::PANEL,
+        bold: true,
+        text: word.to_owned(),
+    });
+    let time = if case.scales == Scales::UNITY {
+        format!("t = {:.1}", now.time)
+    } else {
+        format!("t = {:.3} s", now.time * case.scales.time)
+    };
+    out.push(text(origin + Vec2::new(94.0, 21.0) * scale, 20.0 * scale, palette::TEXT, true, time));
+    let p = case.parameters;
+    let parameters = match case.prescribed {
+        None => {
+            format!("ξ₁ = {}   ξ₂ = {}   κ = {}   γ = {}", short(p.xi1), short(p.xi2), short(p.kappa), short(p.gamma))
+        }
+        Some(m) => format!("x₁ = {} sin({} t)", short(m.amplitude), short(m.angular_frequency)),
+    };
+    out.push(text(origin + Vec2::new(0.0, 50.0) * scale, 14.0 * scale, palette::FAINT_TEXT, false, parameters));
+}
+
+/// At most four significant digits after the point, without trailing zeros.
+fn short(value: f64) -> String {
+    let digits = format!("{value:.4}");
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    digits.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_shown_without_needless_zeros() {
+        assert_eq!(short(-0.06), "−0.06");
+        assert_eq!(short(1.0), "1");
+        assert_eq!(short(0.0346), "0.0346");
+    }
+
+    #[test]
+    fn a_caption_is_broken_between_words_and_keeps_them_all() {
+        let caption = "one two three four five six seven eight nine ten";
+        let lines = wrap(caption, 15.0, 120.0);
+        assert!(lines.len() > 1 && lines.iter().all(|line| text_width(line, 15.0, false) <= 120.0));
+        assert_eq!(lines.join(" "), caption);
+    }
+}

@@ -1,0 +1,189 @@
+//! A framed plot with ticks: maps data to overlay pixels.
+
+use super::palette;
+use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke};
+use glam::Vec2;
+
+/// A range of values with round tick marks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    pub min: f64,
+    pub max: f64,
+    /// Distance of two ticks.
+    pub tick: f64,
+}
+
+impl Axis {
+    /// Range that includes `min..=max` with a margin, ticks at round numbers, about five of them.
+    #[must_use]
+    pub fn covering(min: f64, max: f64) -> Self {
+        let span = (max - min).max(1e-12);
+        let margin = 0.06 * span;
+        Self { min: min - margin, max: max + margin, tick: round_tick(span / 4.0) }
+    }
+
+    /// The range `-limit..=limit` with a margin.
+    #[must_use]
+    pub fn symmetric(limit: f64) -> Self {
+        Self::covering(-limit, limit)
+    }
+
+    /// Exactly `min..=max`.
+    #[must_use]
+    pub fn exactly(min: f64, max: f64) -> Self {
+        Self { min, max, tick: round_tick((max - min) / 4.0) }
+    }
+
+    fn ticks(self) -> impl Iterator<Item = f64> {
+        let (first, last) = ((self.min / self.tick).ceil() as i64, (self.max / self.tick).floor() as i64);
+        (first..=last).map(move |n| n as f64 * self.tick)
+    }
+
+    /// Digits after the point that tell two ticks apart.
+    fn decimals(self) -> usize {
+        (-self.tick.log10().floor()).clamp(0.0, 9.0) as usize
+    }
+
+    fn part(self, value: f64) -> f32 {
+        ((value - self.min) / (self.max - self.min)) as f32
+    }
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is at most `wanted`.
+fn round_tick(wanted: f64) -> f64 {
+    let decade = 10f64.powf(wanted.log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|m| m * decade).find(|tick| *tick <= wanted * (1.0 + 1e-12)).unwrap_or(decade)
+}
+
+/// A plot: where it is, and what its axes mean.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plot {
+    /// The whole panel.
+    pub panel: Rectangle,
+    /// Pixels per pixel of a 720 lines high picture.
+    pub scale: f32,
+    pub title: &'static str,
+    pub x_label: String,
+    pub y_label: String,
+    pub x: Axis,
+    pub y: Axis,
+}
+
+impl Plot {
+    /// The part of the panel that data is drawn in.
+    #[must_use]
+    pub fn area(&self) -> Rectangle {
+        let s = self.scale;
+        Rectangle { min: self.panel.min + Vec2::new(50.0, 28.0) * s, max: self.panel.max - Vec2::new(14.0, 24.0) * s }
+    }
+
+    /// Pixel of a data point.
+    #[must_use]
+    pub fn pixel(&self, x: f64, y: f64) -> Vec2 {
+        let area = self.area();
+        let size = area.max - area.min;
+        Vec2::new(area.min.x + size.x * self.x.part(x), area.max.y - size.y * self.y.part(y))
+    }
+
+    /// Panel, grid, ticks, labels.
+    pub fn draw_frame(&self, out: &mut Vec<OverlayItem>) {
+        out.push(OverlayItem::Box {
+            area: self.panel,
+            corner_radius: 8.0 * self.scale,
+            fill: palette::PANEL.with_alpha(0.88),
+            stroke: Some(self.stroke(1.0, palette::PANEL_EDGE)),
+        });
+        for value in self.x.ticks() {
+            self.draw_rule([self.pixel(value, self.y.min), self.pixel(value, self.y.max)], value == 0.0, out);
+            let place = self.pixel(value, self.y.min) + Vec2::new(0.0, 14.0) * self.scale;
+            out.push(self.text(place, Anchor::Centre, format!("{value:.*}", self.x.decimals())));
+        }
+        for value in self.y.ticks() {
+            self.draw_rule([self.pixel(self.x.min, value), self.pixel(self.x.max, value)], value == 0.0, out);
+            let place = self.pixel(self.x.min, value) + Vec2::new(-6.0, 3.5) * self.scale;
+            out.push(self.text(place, Anchor::Right, format!("{value:.*}", self.y.decimals())));
+        }
+        self.draw_labels(out);
+    }
+
+    fn draw_labels(&self, out: &mut Vec<OverlayItem>) {
+        let s = self.scale;
+        let area = self.area();
+        out.push(OverlayItem::Text {
+            position: self.panel.min + Vec2::new(12.0, 19.0) * s,
+            anchor: Anchor::Left,
+            size: 13.0 * s,
+            colour: palette::TEXT,
+            bold: true,
+            text: self.title.to_owned(),
+        });
+        out.push(self.text(Vec2::new(area.max.x - 4.0 * s, area.max.y - 6.0 * s), Anchor::Right, self.x_label.clone()));
+        out.push(self.text(area.min + Vec2::new(6.0, 13.0) * s, Anchor::Left, self.y_label.clone()));
+    }
+
+    fn draw_rule(&self, ends: [Vec2; 2], zero: bool, out: &mut Vec<OverlayItem>) {
+        let colour = if zero { palette::ZERO_LINE } else { palette::GRID };
+        out.push(OverlayItem::Line { points: ends.to_vec(), stroke: self.stroke(1.0, colour), clip: None });
+    }
+
+    /// A line through data points.
+    pub fn draw_line(
+        &self,
+        data: impl Iterator<Item = (f64, f64)>,
+        width: f32,
+        colour: Colour,
+        out: &mut Vec<OverlayItem>,
+    ) {
+        let points: Vec<Vec2> = data.map(|(x, y)| self.pixel(x, y)).collect();
+        if points.len() > 1 {
+            out.push(OverlayItem::Line { points, stroke: self.stroke(width, colour), clip: Some(self.area()) });
+        }
+    }
+
+    /// The current point.
+    pub fn draw_marker(&self, x: f64, y: f64, colour: Colour, out: &mut Vec<OverlayItem>) {
+        out.push(OverlayItem::Disc {
+            centre: self.pixel(x, y),
+            radius: 4.5 * self.scale,
+            fill: colour,
+            stroke: Some(self.stroke(1.5, palette::TEXT)),
+        });
+    }
+
+    fn stroke(&self, width: f32, colour: Colour) -> Stroke {
+        Stroke { width: width * self.scale, colour }
+    }
+
+    fn text(&self, position: Vec2, anchor: Anchor, text: String) -> OverlayItem {
+        OverlayItem::Text { position, anchor, size: 11.0 * self.scale, colour: palette::FAINT_TEXT, bold: false, text }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside_the_axis() {
+        let axis = Axis::symmetric(1.62);
+        let ticks: Vec<f64> = axis.ticks().collect();
+        assert_eq!(ticks, [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]);
+        assert_eq!(axis.decimals(), 1);
+        assert_eq!(Axis::exactly(0.0, 60.0).tick, 10.0);
+    }
+
+    #[test]
+    fn data_map_to_the_corners_of_the_area() {
+        let plot = Plot {
+            panel: Rectangle { min: Vec2::new(100.0, 50.0), max: Vec2::new(400.0, 250.0) },
+            scale: 1.0,
+            title: "",
+            x_label: String::new(),
+            y_label: String::new(),
+            x: Axis::exactly(0.0, 10.0),
+            y: Axis::exactly(-1.0, 1.0),
+        };
+        assert_eq!(plot.pixel(0.0, -1.0), Vec2::new(150.0, 226.0));
+        assert_eq!(plot.pixel(10.0, 1.0), Vec2::new(386.0, 78.0));
+    }
+}
