@@ -3,7 +3,10 @@
 #![forbid(unsafe_code)]
 #![warn(missing_debug_implementations)]
 
+pub mod compare;
 pub mod dynamics;
+#[cfg(feature = "engine")]
+pub mod engine;
 pub mod model;
 pub mod orbit;
 #[cfg(feature = "render")]

@@ -26,12 +26,14 @@ pub struct Works {
     pub circulatory: f64,
     /// Sliding friction, not positive.
     pub friction: f64,
+    /// A prescribed motion, either sign.
+    pub drive: f64,
 }
 
 impl Works {
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.damping + self.self_excitation + self.circulatory + self.friction
+        self.damping + self.self_excitation + self.circulatory + self.friction + self.drive
     }
 }
 
@@ -41,6 +43,7 @@ impl AddAssign for Works {
         self.self_excitation += other.self_excitation;
         self.circulatory += other.circulatory;
         self.friction += other.friction;
+        self.drive += other.drive;
     }
 }
 
@@ -87,6 +90,7 @@ impl OscillatorChain {
             self_excitation: -v.dot(&(self.self_excitation() * &v)),
             circulatory: -v.dot(&(skew * x)),
             friction: 0.0,
+            drive: 0.0,
         }
     }
 }

@@ -1,0 +1,240 @@
+//! The rig in Rapier as a [`Flow`].
+
+use super::force_law::{ForceLaw, Known, laws_of};
+use super::geometry::RigGeometry;
+use super::instant::Instant;
+use super::plant::{self, Blueprint, Carriages, Plant};
+use super::recorder::{Poses, Recorder, Recording};
+use super::settings::{EngineSettings, Scheme};
+use super::{EngineError, EngineInfo};
+use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
+use crate::model::{OscillatorChain, Range};
+use std::sync::Arc;
+
+/// Beyond this |x| a motion counts as diverged, unless told otherwise.
+pub const DEFAULT_AMPLITUDE_BOUND: f64 = 1000.0;
+
+/// A chain of oscillators as carriages in Rapier, moved by its force laws.
+#[derive(Debug, Clone)]
+pub struct EngineFlow {
+    chain: OscillatorChain,
+    settings: EngineSettings,
+    geometry: RigGeometry,
+    laws: Vec<Arc<dyn ForceLaw>>,
+    amplitude_bound: f64,
+}
+
+impl EngineFlow {
+    /// # Errors
+    /// [`EngineError::Parameter`] for settings outside their range.
+    pub fn new(chain: &OscillatorChain, settings: EngineSettings) -> Result<Self, EngineError> {
+        Ok(Self {
+            chain: chain.clone(),
+            settings: settings.validated()?,
+            geometry: RigGeometry::default(),
+            laws: laws_of(chain),
+            amplitude_bound: DEFAULT_AMPLITUDE_BOUND,
+        })
+    }
+
+    /// With other sizes and rest positions; the motion does not depend on them but for rounding.
+    ///
+    /// # Errors
+    /// [`EngineError::Parameter`] for sizes outside their range.
+    pub fn with_geometry(self, geometry: RigGeometry) -> Result<Self, EngineError> {
+        Ok(Self { geometry: geometry.validated()?, ..self })
+    }
+
+    /// With another bound on |x|, finite and positive.
+    ///
+    /// # Errors
+    /// [`EngineError::Parameter`] otherwise.
+    pub fn with_amplitude_bound(self, bound: f64) -> Result<Self, EngineError> {
+        Ok(Self { amplitude_bound: Range::Positive.check("amplitude_bound", bound)?, ..self })
+    }
+
+    /// With other force laws in place of the chain's own ([`laws_of`]). The energy ledger still measures the works of the chain.
+    #[must_use]
+    pub fn with_laws(self, laws: Vec<Arc<dyn ForceLaw>>) -> Self {
+        Self { laws, ..self }
+    }
+
+    #[must_use]
+    pub fn settings(&self) -> EngineSettings {
+        self.settings
+    }
+
+    /// Name and version of the engine in use.
+    #[must_use]
+    pub fn engine(&self) -> EngineInfo {
+        EngineInfo::of(self.settings.precision)
+    }
+
+    /// The motion with the engine's poses at each sample, joint drift and number of steps.
+    ///
+    /// # Errors
+    /// As [`Flow::trajectory`].
+    pub fn record(&self, initial: &State, sampling: Sampling) -> Result<Recording, EngineError> {
+        self.run(initial, sampling, Poses::Keep)
+    }
+
+    pub(super) fn geometry(&self) -> RigGeometry {
+        self.geometry
+    }
+
+    /// Slider forces of `to` from those of `from` and the positions of both.
+    pub(super) fn move_sliders(&self, from: &State, to: &mut State) {
+        to.slider_forces.copy_from_slice(&from.slider_forces);
+        for law in &self.laws {
+            law.move_sliders(&from.positions, &to.positions, &mut to.slider_forces);
+        }
+    }
+
+    fn run(&self, initial: &State, sampling: Sampling, poses: Poses) -> Result<Recording, EngineError> {
+        let steps = steps_for(sampling, self.settings.step)?;
+        let start = initial.clone().validated(&self.chain)?;
+        let mut run = Run::start(self, start)?;
+        let mut recorder = Recorder::new(&self.chain, sampling, poses, &run.now, run.plant.as_ref());
+        for n in 0..steps {
+            run.step(n)?;
+            if run.largest_amplitude() > self.amplitude_bound {
+                let outcome = Outcome::Diverged { time: run.now.time, bound: self.amplitude_bound };
+                return Ok(recorder.finish(outcome));
+            }
+            recorder.advance(&run.before, &run.now, run.plant.as_ref());
+        }
+        Ok(recorder.finish(Outcome::Completed))
+    }
+}
+
+impl Flow for EngineFlow {
+    type Error = EngineError;
+
+    /// `rapier3d-f64` or `rapier3d`.
+    fn name(&self) -> String {
+        self.engine().name.to_owned()
+    }
+
+    /// Samples at multiples of the step are the engine's own positions. Others are interpolated inside the step, with errors of second
+    /// order in the step: positions by cubic Hermite, velocities linearly, slider forces by the return mapping.
+    fn trajectory(&self, initial: &State, sampling: Sampling) -> Result<Trajectory, EngineError> {
+        Ok(self.run(initial, sampling, Poses::Drop)?.trajectory)
+    }
+}
+
+/// Number of steps that cover the sampling.
+pub(super) fn steps_for(sampling: Sampling, step: f64) -> Result<u64, EngineError> {
+    Range::Positive.check("sampling.interval", sampling.interval)?;
+    Range::NonNegative.check("sampling.t_end", sampling.t_end)?;
+    Ok((sampling.t_end / step - super::recorder::SAME_TIME).ceil().max(0.0) as u64)
+}
+
+/// A motion under way. `force` and `acceleration` are those at `now`, which the next step will use.
+struct Run<'a> {
+    flow: &'a EngineFlow,
+    plant: Box<dyn Plant>,
+    before: Instant,
+    now: Instant,
+    force: Vec<f64>,
+    acceleration: Vec<f64>,
+    /// The engine's velocities `w` and what the force laws are told, see [`Scheme`].
+    engine_velocities: Vec<f64>,
+    known_velocities: Vec<f64>,
+}
+
+impl<'a> Run<'a> {
+    fn start(flow: &'a EngineFlow, initial: State) -> Result<Self, EngineError> {
+        let n = flow.chain.oscillators();
+        let contacts = initial.initial_contacts(&flow.chain);
+        let now = Instant { time: 0.0, state: initial, contacts, drive_force: 0.0 };
+        let mut force = vec![0.0; n];
+        let velocities = now.state.velocities.clone();
+        evaluate(flow, &now, &velocities, &mut force)?;
+        let acceleration: Vec<f64> = force.iter().zip(flow.chain.mass().iter()).map(|(f, m)| f / m).collect();
+        let stagger = flow.settings.stagger();
+        let engine_velocities: Vec<f64> = velocities.iter().zip(&acceleration).map(|(v, a)| v - stagger * a).collect();
+        let plant = plant::build(&Blueprint {
+            masses: flow.chain.mass().as_slice(),
+            positions: &now.state.positions,
+            velocities: &engine_velocities,
+            geometry: flow.geometry,
+            settings: flow.settings,
+            carriages: Carriages::Free,
+        })?;
+        let mut run = Self {
+            flow,
+            plant,
+            before: now.clone(),
+            now,
+            force,
+            acceleration,
+            engine_velocities,
+            known_velocities: velocities,
+        };
+        if flow.settings.scheme == Scheme::LaggingDamping {
+            // No better velocity is known to this scheme than the engine's, from the first step on.
+            evaluate(flow, &run.now, &run.engine_velocities, &mut run.force)?;
+        }
+        Ok(run)
+    }
+
+    /// Step number `n`, from `n h` to `(n + 1) h`.
+    fn step(&mut self, n: u64) -> Result<(), EngineError> {
+        let settings = &self.flow.settings;
+        let time = (n + 1) as f64 * settings.step;
+        self.plant.step_with_forces(&self.force).map_err(|found| EngineError::Quarantined { time, found })?;
+        std::mem::swap(&mut self.before, &mut self.now);
+        self.now.time = time;
+        self.plant.read_positions(&mut self.now.state.positions);
+        self.plant.read_velocities(&mut self.engine_velocities);
+        self.check_finite()?;
+        self.flow.move_sliders(&self.before.state, &mut self.now.state);
+
+        // Prediction with the acceleration of the step that has just been made, then correction with the one found here.
+        let stagger = settings.stagger();
+        let prediction = if settings.scheme == Scheme::LaggingDamping { 0.0 } else { stagger };
+        for (i, known) in self.known_velocities.iter_mut().enumerate() {
+            *known = self.engine_velocities[i] + prediction * self.acceleration[i];
+        }
+        evaluate(self.flow, &self.now, &self.known_velocities, &mut self.force)?;
+        for (i, mass) in self.flow.chain.mass().iter().enumerate() {
+            self.acceleration[i] = self.force[i] / mass;
+            self.now.state.velocities[i] = self.engine_velocities[i] + stagger * self.acceleration[i];
+        }
+        self.now.find_contacts(&self.flow.chain);
+        Ok(())
+    }
+
+    fn check_finite(&self) -> Result<(), EngineError> {
+        let time = self.now.time;
+        for values in [&self.now.state.positions, &self.engine_velocities] {
+            if let Some(oscillator) = values.iter().position(|value| !value.is_finite()) {
+                return Err(EngineError::MotionNotFinite { time, oscillator, found: values[oscillator] });
+            }
+        }
+        Ok(())
+    }
+
+    fn largest_amplitude(&self) -> f64 {
+        self.now.state.positions.iter().fold(0.0, |largest, x| largest.max(x.abs()))
+    }
+}
+
+/// The forces of all laws at an instant, seen with the given velocities.
+pub(super) fn evaluate(
+    flow: &EngineFlow,
+    at: &Instant,
+    velocities: &[f64],
+    force: &mut [f64],
+) -> Result<(), EngineError> {
+    force.fill(0.0);
+    let Instant { time, state, .. } = at;
+    let known = Known { time: *time, positions: &state.positions, velocities, slider_forces: &state.slider_forces };
+    for law in &flow.laws {
+        law.add_force(&known, force);
+    }
+    match force.iter().position(|f| !f.is_finite()) {
+        Some(oscillator) => Err(EngineError::ForceNotFinite { time: *time, oscillator, found: force[oscillator] }),
+        None => Ok(()),
+    }
+}

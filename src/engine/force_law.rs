@@ -1,0 +1,157 @@
+//! Force laws: what the springs, dampers and friction elements of the rig do to its carriages.
+//!
+//! Rapier has no callback for forces, so each law is evaluated before a step from what is known then, and its force is held constant
+//! over the step:
+//!
+//! ```text
+//! F = -K x  (springs),   -D v  (passive damping),   -S v  (self-excitation),   -sum_j R_j f_j b_j  (Jenkins elements).
+//! ```
+//!
+//! Matrices may be non-symmetric. Laws have no memory: the slider forces f are part of the rig's state and handed to them.
+
+use crate::model::{JenkinsElement, OscillatorChain};
+use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// What a law may use: the state at the beginning of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Known<'a> {
+    pub time: f64,
+    /// Displacements, length N.
+    pub positions: &'a [f64],
+    /// Velocities as well as they are known (see [`super::Scheme`]), length N.
+    pub velocities: &'a [f64],
+    /// Normalised slider forces, one per Jenkins element.
+    pub slider_forces: &'a [f64],
+}
+
+/// A force on the carriages along their rail.
+pub trait ForceLaw: Debug + Send + Sync {
+    /// Adds the forces of this law to `force`, length N.
+    fn add_force(&self, known: &Known<'_>, force: &mut [f64]);
+
+    /// Moves the sliders on after the carriages went `from` one sampled position `to` the next. Laws without friction have none.
+    fn move_sliders(&self, _from: &[f64], _to: &[f64], _slider_forces: &mut [f64]) {}
+}
+
+/// Springs to ground and between carriages, and any other linear force of position: `-K x`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Springs(pub DMatrix<f64>);
+
+impl ForceLaw for Springs {
+    fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
+        subtract_product(&self.0, known.positions, force);
+    }
+}
+
+/// Passive dampers: `-D v`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dampers(pub DMatrix<f64>);
+
+impl ForceLaw for Dampers {
+    fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
+        subtract_product(&self.0, known.velocities, force);
+    }
+}
+
+/// Self-excitation, damping with the other sign: `-S v`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SelfExcitation(pub DMatrix<f64>);
+
+impl ForceLaw for SelfExcitation {
+    fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
+        subtract_product(&self.0, known.velocities, force);
+    }
+}
+
+/// Jenkins elements by incremental return mapping on sampled positions: with `du` the change of elongation from one sample to the
+/// next,
+///
+/// ```text
+/// f <- clamp(f + (k/R) du, -1, 1).
+/// ```
+///
+/// Exact as long as the elongation is monotone between samples; where it turns, the extreme lies up to `h^2 |u''|/8` beyond the
+/// samples, and f is wrong by that much times k/R.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JenkinsElements(pub Vec<JenkinsElement>);
+
+impl ForceLaw for JenkinsElements {
+    fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
+        for (element, f) in self.0.iter().zip(known.slider_forces) {
+            element.attachment.scatter(-element.slip_force * f, force);
+        }
+    }
+
+    fn move_sliders(&self, from: &[f64], to: &[f64], slider_forces: &mut [f64]) {
+        for (element, f) in self.0.iter().zip(slider_forces) {
+            let du = element.attachment.elongation(to) - element.attachment.elongation(from);
+            *f = return_mapping(element, *f, du);
+        }
+    }
+}
+
+/// The law of [`JenkinsElements`] for one element.
+pub(super) fn return_mapping(element: &JenkinsElement, f: f64, du: f64) -> f64 {
+    (f + element.normalised_stiffness() * du).clamp(-1.0, 1.0)
+}
+
+/// The laws of a chain, one per kind of element.
+#[must_use]
+pub fn laws_of(chain: &OscillatorChain) -> Vec<Arc<dyn ForceLaw>> {
+    vec![
+        Arc::new(Springs(chain.stiffness().clone())),
+        Arc::new(Dampers(chain.damping().clone())),
+        Arc::new(SelfExcitation(chain.self_excitation().clone())),
+        Arc::new(JenkinsElements(chain.jenkins().to_vec())),
+    ]
+}
+
+/// `target -= matrix * values`.
+pub(super) fn subtract_product(matrix: &DMatrix<f64>, values: &[f64], target: &mut [f64]) {
+    let (rows, columns) = matrix.shape();
+    if values.len() == columns && target.len() == rows {
+        let values = DVectorView::from_slice(values, columns);
+        DVectorViewMut::from_slice(target, rows).gemv(-1.0, matrix, &values, 1.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Attachment;
+
+    #[test]
+    fn the_slider_loads_slips_and_unloads_with_the_same_stiffness() {
+        let element = JenkinsElement { attachment: Attachment::Ground(0), stiffness: 2.0, slip_force: 4.0 };
+        let law = JenkinsElements(vec![element]);
+        let mut f = [0.0];
+        law.move_sliders(&[0.0], &[1.0], &mut f);
+        assert_eq!(f, [0.5]);
+        law.move_sliders(&[1.0], &[5.0], &mut f);
+        assert_eq!(f, [1.0]);
+        law.move_sliders(&[5.0], &[4.0], &mut f);
+        assert_eq!(f, [0.5]);
+        let mut force = [0.0];
+        let known = Known { time: 0.0, positions: &[4.0], velocities: &[0.0], slider_forces: &f };
+        law.add_force(&known, &mut force);
+        assert_eq!(force, [-2.0]);
+    }
+
+    #[test]
+    fn the_laws_of_a_chain_sum_to_its_equation_of_motion() {
+        let chain = crate::model::ChainBuilder::new(vec![2.0, 1.0])
+            .add_stiffness(&DMatrix::from_row_slice(2, 2, &[3.0, 1.0, -2.0, 5.0]))
+            .ground_damper(0, 0.25)
+            .self_excited(1, -0.5)
+            .jenkins(JenkinsElement { attachment: Attachment::Between(1, 0), stiffness: 1.0, slip_force: 4.0 })
+            .build()
+            .unwrap();
+        let known = Known { time: 0.0, positions: &[1.0, 2.0], velocities: &[3.0, 4.0], slider_forces: &[0.5] };
+        let mut force = [0.0; 2];
+        laws_of(&chain).iter().for_each(|law| law.add_force(&known, &mut force));
+        // By hand: first row -(3 + 2) - 0.25 * 3 + 4 * 0.5, second -(-2 + 10) + 0.5 * 4 - 4 * 0.5.
+        assert_eq!(force, [-3.75, -8.0]);
+    }
+}

@@ -1,0 +1,113 @@
+//! Prescribed motion in the engine: the carriage of oscillator 0 is a kinematic body that follows `x_0 = a sin(w t)`, the others
+//! are kinematic and stand still. The Jenkins elements follow by the same return mapping as in free motion.
+//!
+//! The force that the drive needs is `F = m_0 x_0'' - F_laws`, and its work is in the ledger, which so closes with second order.
+
+use super::flow::{evaluate, steps_for};
+use super::instant::Instant;
+use super::plant::{self, Blueprint, Carriages};
+use super::recorder::{Poses, Recorder, Recording};
+use super::{EngineError, EngineFlow, EngineInfo, EngineSettings};
+use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
+use crate::model::{OscillatorChain, PrescribedMotion};
+
+/// A chain whose oscillator 0 is moved by hand.
+#[derive(Debug, Clone)]
+pub struct PrescribedFlow {
+    chain: OscillatorChain,
+    motion: PrescribedMotion,
+    flow: EngineFlow,
+}
+
+impl PrescribedFlow {
+    /// Of the settings, joints, substeps and scheme have no influence: nothing is free to move.
+    ///
+    /// # Errors
+    /// [`EngineError::Parameter`] for settings or a motion outside their range.
+    pub fn new(
+        chain: &OscillatorChain,
+        motion: PrescribedMotion,
+        settings: EngineSettings,
+    ) -> Result<Self, EngineError> {
+        let flow = EngineFlow::new(chain, settings)?;
+        Ok(Self { chain: chain.clone(), motion: motion.validated()?, flow })
+    }
+
+    /// Name and version of the engine in use.
+    #[must_use]
+    pub fn engine(&self) -> EngineInfo {
+        self.flow.engine()
+    }
+
+    /// The motion with the engine's poses. Of `initial`, the slider forces and the places of the resting oscillators count.
+    ///
+    /// # Errors
+    /// As [`Flow::trajectory`]; [`EngineError::OffPrescribedMotion`] if oscillator 0 does not start at 0.
+    pub fn record(&self, initial: &State, sampling: Sampling) -> Result<Recording, EngineError> {
+        self.run(initial, sampling, Poses::Keep)
+    }
+
+    fn run(&self, initial: &State, sampling: Sampling, poses: Poses) -> Result<Recording, EngineError> {
+        let step = self.flow.settings().step;
+        let steps = steps_for(sampling, step)?;
+        let mut now = self.start(initial)?;
+        let mut plant = plant::build(&Blueprint {
+            masses: self.chain.mass().as_slice(),
+            positions: &now.state.positions,
+            velocities: &vec![0.0; self.chain.oscillators()],
+            geometry: self.flow.geometry(),
+            settings: self.flow.settings(),
+            carriages: Carriages::Kinematic,
+        })?;
+        let mut recorder = Recorder::new(&self.chain, sampling, poses, &now, plant.as_ref());
+        let mut before = now.clone();
+        let mut target = now.state.positions.clone();
+        for n in 0..steps {
+            let time = (n + 1) as f64 * step;
+            target[0] = self.motion.position(time);
+            plant.step_to(&target).map_err(|found| EngineError::Quarantined { time, found })?;
+            std::mem::swap(&mut before, &mut now);
+            now.time = time;
+            plant.read_positions(&mut now.state.positions);
+            self.flow.move_sliders(&before.state, &mut now.state);
+            self.complete(&mut now)?;
+            recorder.advance(&before, &now, plant.as_ref());
+        }
+        Ok(recorder.finish(Outcome::Completed))
+    }
+
+    fn start(&self, initial: &State) -> Result<Instant, EngineError> {
+        let mut state = initial.clone().validated(&self.chain)?;
+        if state.positions[0] != 0.0 {
+            return Err(EngineError::OffPrescribedMotion { found: state.positions[0] });
+        }
+        state.velocities.fill(0.0);
+        let contacts = vec![crate::model::ContactState::Stick; self.chain.sliders()];
+        let mut start = Instant { time: 0.0, state, contacts, drive_force: 0.0 };
+        self.complete(&mut start)?;
+        Ok(start)
+    }
+
+    /// Fills in what the motion prescribes (velocity) and what follows from it (contacts, force of the drive).
+    fn complete(&self, now: &mut Instant) -> Result<(), EngineError> {
+        now.state.velocities[0] = self.motion.velocity(now.time);
+        now.find_contacts(&self.chain);
+        let mut force = vec![0.0; self.chain.oscillators()];
+        evaluate(&self.flow, now, &now.state.velocities, &mut force)?;
+        let acceleration = -self.motion.angular_frequency.powi(2) * self.motion.position(now.time);
+        now.drive_force = self.chain.mass()[0] * acceleration - force[0];
+        Ok(())
+    }
+}
+
+impl Flow for PrescribedFlow {
+    type Error = EngineError;
+
+    fn name(&self) -> String {
+        format!("{}, prescribed motion", self.flow.name())
+    }
+
+    fn trajectory(&self, initial: &State, sampling: Sampling) -> Result<Trajectory, EngineError> {
+        Ok(self.run(initial, sampling, Poses::Drop)?.trajectory)
+    }
+}

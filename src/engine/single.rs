@@ -1,0 +1,8 @@
+//! The world in f32: `world.rs` compiled against `rapier3d`.
+
+use rapier3d as rapier;
+
+const PRECISION: &str = "f32";
+
+#[path = "world.rs"]
+pub(super) mod world;
