@@ -7,3 +7,4 @@ pub mod dynamics;
 pub mod model;
 #[cfg(feature = "render")]
 pub mod render;
+pub mod store;
