@@ -4,6 +4,8 @@
 #![warn(missing_debug_implementations)]
 
 pub mod dynamics;
+#[cfg(feature = "render")]
+pub mod film;
 pub mod model;
 #[cfg(feature = "render")]
 pub mod render;
