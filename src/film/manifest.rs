@@ -1,0 +1,65 @@
+//! `frames.json`: what the frames are. It says nothing about the run that made them, so that it is the same after any interruption.
+
+use super::error::FilmError;
+use super::plan::{Finished, frame_name};
+use super::settings::FilmSettings;
+use crate::render::AdapterInfo;
+use crate::store::{OutputDir, sha256_hex};
+use serde::Serialize;
+
+const NAME: &str = "frames.json";
+
+#[derive(Serialize)]
+struct Manifest<'a> {
+    stickslip: &'static str,
+    parameters_sha256: &'a str,
+    width: u32,
+    height: u32,
+    frames_per_second: u32,
+    backend: &'a str,
+    adapter: &'a str,
+    frames: Vec<Frame<'a>>,
+}
+
+#[derive(Serialize)]
+struct Frame<'a> {
+    index: u64,
+    /// Seconds from the beginning of the whole film.
+    time: f64,
+    file: String,
+    sha256: &'a str,
+}
+
+impl<'a> Frame<'a> {
+    fn new(index: u64, sha256: &'a str, settings: &FilmSettings) -> Self {
+        let time = index as f64 / f64::from(settings.frames_per_second);
+        Self { index, time, file: frame_name(index), sha256 }
+    }
+}
+
+/// Writes the list of all finished frames, unless it is there already.
+pub(super) fn write(
+    settings: &FilmSettings,
+    output: &OutputDir,
+    adapter: &AdapterInfo,
+    finished: &Finished,
+) -> Result<(), FilmError> {
+    let manifest = Manifest {
+        stickslip: env!("CARGO_PKG_VERSION"),
+        parameters_sha256: output.parameters_sha256(),
+        width: settings.size[0],
+        height: settings.size[1],
+        frames_per_second: settings.frames_per_second,
+        backend: &adapter.backend,
+        adapter: &adapter.adapter,
+        frames: finished.iter().map(|(&index, sha256)| Frame::new(index, sha256, settings)).collect(),
+    };
+    let failed = |error: serde_json::Error| FilmError::Encode { index: 0, format: "JSON", reason: error.to_string() };
+    let mut text = serde_json::to_vec_pretty(&manifest).map_err(failed)?;
+    text.push(b'\n');
+    let key = sha256_hex(&text);
+    if output.trusted(NAME, &key).is_none() {
+        output.write(NAME, &key, |writer| writer.write_all(&text))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,77 @@
+use super::error::FilmError;
+use std::ops::Range;
+
+/// Limits of the H.264 encoder (openh264): level 5.2.
+const LEAST_SIDE: u32 = 16;
+const LONG_SIDE: u32 = 3840;
+const SHORT_SIDE: u32 = 2160;
+/// Frame times have to stay apart in the film file's clock of 90 kHz, and displays end far below.
+const MOST_FRAMES_PER_SECOND: u32 = 1000;
+
+/// Which film file is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Video {
+    /// Frames only.
+    None,
+    /// `film.mp4` of all frames of the source, as soon as all of them are there.
+    Whole,
+    /// A film of the frames of [`FilmSettings::frames`] alone, `film-FIRST-LAST.mp4`; of all frames where that is `None`.
+    Selected,
+}
+
+/// How frames become files.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FilmSettings {
+    /// Width and height in pixels. Frames have exactly this size; a film needs even sides, so its last column or row is repeated
+    /// where one is odd.
+    pub size: [u32; 2],
+    pub frames_per_second: u32,
+    /// H.264 quantiser: 0 best, 51 worst; measured at 1280x720: 18 gives about 48 dB, 22 about 46 dB.
+    pub quantiser: u8,
+    /// Draw these frames only; `None` for all.
+    pub frames: Option<Range<u64>>,
+    pub video: Video,
+}
+
+impl Default for FilmSettings {
+    /// 1280x720, 30 frames per second, quantiser 20, all frames, one film.
+    fn default() -> Self {
+        Self { size: [1280, 720], frames_per_second: 30, quantiser: 20, frames: None, video: Video::Whole }
+    }
+}
+
+impl FilmSettings {
+    /// The frames to draw of `count` there are.
+    pub(super) fn selected(&self, count: u64) -> Result<Range<u64>, FilmError> {
+        let range = self.frames.clone().unwrap_or(0..count);
+        if count == 0 {
+            return Err(FilmError::NoFrames);
+        }
+        if range.is_empty() || range.end > count {
+            return Err(FilmError::Range { start: range.start, end: range.end, count });
+        }
+        Ok(range)
+    }
+
+    pub(super) fn check(&self) -> Result<(), FilmError> {
+        let Self { size: [width, height], frames_per_second, quantiser, .. } = *self;
+        if !(1..=MOST_FRAMES_PER_SECOND).contains(&frames_per_second) {
+            return Err(FilmError::FrameRate { frames_per_second, limit: MOST_FRAMES_PER_SECOND });
+        }
+        if quantiser > 51 {
+            return Err(FilmError::Quantiser { quantiser });
+        }
+        let [wide, high] = self.video_size();
+        let fits = wide.min(high) >= LEAST_SIDE && wide.max(high) <= LONG_SIDE && wide.min(high) <= SHORT_SIDE;
+        if self.video != Video::None && !fits {
+            let (least, long, short) = (LEAST_SIDE, LONG_SIDE, SHORT_SIDE);
+            return Err(FilmError::VideoSize { width, height, least, long, short });
+        }
+        Ok(())
+    }
+
+    /// Size of the film: the frames', made even.
+    pub(super) fn video_size(&self) -> [u32; 2] {
+        self.size.map(|side| side.saturating_add(side % 2))
+    }
+}
