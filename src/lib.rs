@@ -12,7 +12,7 @@
 //! df = dx1  while |f + dx1| < 1,  else 0
 //! ```
 //!
-//! Equations (1)-(3) of J. Woiwode, A. F. Vakakis, M. Krack, *Analysis of the non-periodic oscillations of a self-excited
+//! Equations (1)-(3) of L. Woiwode, A. F. Vakakis, M. Krack, *Analysis of the non-periodic oscillations of a self-excited
 //! friction-damped system with closely spaced modes*, Nonlinear Dynamics 106 (2021) 1659-1673. Everything is non-dimensional unless it says
 //! otherwise ([`model::DimensionalRig`] converts); angles are in rad; the state is `y = (x1, x2, v1, v2, f)`; works are done *on*
 //! the system; the slider force acts against the elongation.

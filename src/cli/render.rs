@@ -8,7 +8,7 @@ use super::run::default_directory;
 use super::trajectory_table::from_table;
 use super::{Verdict, motions};
 use crate::dynamics::Trajectory;
-use crate::scene::Case;
+use crate::scene::{Case, Film};
 use crate::store::{Existing, Origin, OutputDir, read_table};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
@@ -89,16 +89,16 @@ impl RenderArgs {
 
     fn stored(&self, path: &Path) -> anyhow::Result<(Case, Trajectory)> {
         let fault = || format!("trajectory {}", path.display());
-        let (mut case, trajectory) = from_table(&read_table(path)?).with_context(fault)?;
+        let (case, trajectory) = from_table(&read_table(path)?).with_context(fault)?;
         ensure!(
             self.film.t_end.is_none(),
             "--t-end cannot change a stored trajectory: give it to `simulate`, or a scene to `render`"
         );
-        let mut film = crate::scene::Film::default();
+        let mut film = Film { speed: Film::default().speed * case.scales.time, ..Film::default() };
         [film.width, film.height] = self.film.size.unwrap_or([film.width, film.height]);
         film.fps = self.film.fps.unwrap_or(film.fps);
-        film.speed = self.film.speed.map_or(film.speed, |speed| speed / case.scales.time);
-        case.film = film;
+        film.speed = self.film.speed.unwrap_or(film.speed);
+        let case = case.refilmed(film, &path.display().to_string())?;
         Ok((case, trajectory))
     }
 }

@@ -1,7 +1,7 @@
 //! A scene made ready: validated, non-dimensional, with the units to go back.
 
 use super::description::{Engine, Film, Initial, Scene};
-use super::error::Fault;
+use super::error::{Fault, Place, SceneError};
 use crate::model::{ParameterError, PrescribedMotion, Range, RigParameters, Scales};
 use serde::{Deserialize, Serialize};
 
@@ -80,7 +80,7 @@ impl Scene {
             engine: self.engine,
             step: self.step(&scales)?,
             horizon,
-            film: self.film_settings(&scales)?,
+            film: film_settings(self.film, &scales)?,
         };
         case.check_lengths()?;
         Ok(case)
@@ -135,17 +135,17 @@ impl Scene {
             }
         }
     }
+}
 
-    fn film_settings(&self, scales: &Scales) -> Result<Film, Refusal> {
-        let film = self.film;
-        for (path, side) in [("film.width", film.width), ("film.height", film.height)] {
-            whole(path, side.into(), 64, MAX_SIDE, "an even number from 64 to 7680")?;
-            whole(path, u64::from(side % 2) * u64::from(side), 0, 0, "an even number from 64 to 7680")?;
-        }
-        whole("film.fps", film.fps.into(), 1, 240, "1 to 240")?;
-        let speed = checked(Range::Positive, "film.speed", film.speed)? / scales.time;
-        Ok(Film { speed, ..film })
+/// The film with its speed made non-dimensional.
+fn film_settings(film: Film, scales: &Scales) -> Result<Film, Refusal> {
+    for (path, side) in [("film.width", film.width), ("film.height", film.height)] {
+        whole(path, side.into(), 64, MAX_SIDE, "an even number from 64 to 7680")?;
+        whole(path, u64::from(side % 2) * u64::from(side), 0, 0, "an even number from 64 to 7680")?;
     }
+    whole("film.fps", film.fps.into(), 1, 240, "1 to 240")?;
+    let speed = checked(Range::Positive, "film.speed", film.speed)? / scales.time;
+    Ok(Film { speed, ..film })
 }
 
 impl Case {
@@ -160,6 +160,21 @@ impl Case {
     pub fn frame_count(&self) -> u64 {
         // A frame that rounding puts just after the end still belongs to the film.
         (self.duration / self.frame_interval() + 1e-9).floor() as u64 + 1
+    }
+
+    /// The same case with another film, its speed in the units of the scene; `origin` names the film in errors.
+    ///
+    /// # Errors
+    /// [`SceneError::Parameter`] with the field of the film at fault.
+    pub fn refilmed(self, film: Film, origin: &str) -> Result<Self, SceneError> {
+        let refuse = |(field, fault): Refusal| SceneError::Parameter {
+            origin: origin.to_owned(),
+            place: Place { line: None, field },
+            fault,
+        };
+        let case = Self { film: film_settings(film, &self.scales).map_err(refuse)?, ..self };
+        case.check_lengths().map_err(refuse)?;
+        Ok(case)
     }
 
     fn check_lengths(&self) -> Result<(), Refusal> {
