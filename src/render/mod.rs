@@ -1,11 +1,21 @@
 //! Drawing without a window: knows shapes, lines and text, and no physics.
 
+mod cpu;
 mod draw_list;
 mod error;
+mod geometry;
+mod open;
+mod overlay;
+mod portable;
 mod renderer;
+pub mod shapes;
+mod view;
 
+pub use cpu::CpuRenderer;
 pub use draw_list::{
     Anchor, Background, Camera, Colour, DrawList, Light, Material, Mesh, Object, OverlayItem, Rectangle, Stroke,
 };
 pub use error::RenderError;
+pub use open::{RendererChoice, open};
+pub use overlay::text_width;
 pub use renderer::{AdapterInfo, DrawTimes, Renderer};
