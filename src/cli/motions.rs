@@ -1,11 +1,12 @@
 //! A case set in motion: by the engine and by the exact solution, from the same start and sampled at the same times.
 
+use crate::compare::{self, Expectation};
 use crate::dynamics::{Flow, Sampling, State, Trajectory};
 use crate::engine::{self, EngineFlow, EngineInfo, EngineSettings, Recording};
 use crate::exact;
 use crate::model::{RigParameters, TwoMassRig};
 use crate::orbit::{OrbitError, PeriodicOrbit, limit_cycle};
-use crate::scene::{Case, Initial, Joints, Precision, Scheme};
+use crate::scene::{Case, Initial, Joints, MotionKind, Precision, Scheme};
 use anyhow::Context;
 
 /// Longest time between two samples of a filmed motion: lines drawn through them look smooth.
@@ -88,4 +89,31 @@ pub fn exactly(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result
 /// Name and version of the engine a case asks for.
 pub fn engine_info(settings: &EngineSettings) -> EngineInfo {
     EngineInfo::of(settings.precision)
+}
+
+/// What the comparison must know about the motion and the engine.
+///
+/// Small differences grow at the rate of the limit cycle's largest multiplier, where there is a cycle and it is unstable; without one, at
+/// the rate at which the linear rig grows.
+pub fn expectation(case: &Case, settings: &EngineSettings, recording: &Recording) -> anyhow::Result<Expectation> {
+    let end = recording.trajectory.last().map_or(case.duration, |sample| sample.time);
+    let growth_rate = match (case.prescribed, exact_limit_cycle(case.parameters)) {
+        (Some(_), _) => 0.0,
+        (None, Ok(orbit)) => (orbit.half_period_multipliers()[0].norm().ln() * 2.0 / orbit.period).max(0.0),
+        (None, Err(_)) => (-0.5 * case.parameters.xi1).max(0.0),
+    };
+    Ok(Expectation {
+        horizon: case.horizon.min(end),
+        step: settings.step,
+        growth_rate,
+        unit_roundoff: match settings.precision {
+            engine::Precision::Single => 0.5 * f64::from(f32::EPSILON),
+            engine::Precision::Double => 0.5 * f64::EPSILON,
+        },
+        motion: match case.motion {
+            MotionKind::Regular => compare::Motion::Regular,
+            MotionKind::Chaotic => compare::Motion::Chaotic,
+        },
+        joint_drift: Some([recording.drift.lateral, recording.drift.rotation]),
+    })
 }

@@ -1,6 +1,6 @@
 //! A scene made ready: validated, non-dimensional, with the units to go back.
 
-use super::description::{Engine, Film, Initial, Scene};
+use super::description::{Engine, Film, Initial, MotionKind, Scene};
 use super::error::{Fault, Place, SceneError};
 use crate::model::{ParameterError, PrescribedMotion, Range, RigParameters, Scales};
 use serde::{Deserialize, Serialize};
@@ -30,6 +30,7 @@ pub struct Case {
     pub step: f64,
     /// States are compared up to here.
     pub horizon: f64,
+    pub motion: MotionKind,
     pub film: Film,
 }
 
@@ -80,6 +81,7 @@ impl Scene {
             engine: self.engine,
             step: self.step(&scales)?,
             horizon,
+            motion: self.check.motion,
             film: film_settings(self.film, &scales)?,
         };
         case.check_lengths()?;

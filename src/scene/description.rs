@@ -133,6 +133,17 @@ impl Default for Engine {
     }
 }
 
+/// What kind of motion a scene shows, which decides what engine and exact solution can agree on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MotionKind {
+    /// Amplitude and frequency agree as well as the states do.
+    #[default]
+    Regular,
+    /// Beyond the horizon only averages agree, within their statistical error.
+    Chaotic,
+}
+
 /// How engine and exact solution are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -140,6 +151,7 @@ pub struct Check {
     /// States are compared up to this time; the whole motion without it. Chaos calls for a short one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub horizon: Option<f64>,
+    pub motion: MotionKind,
 }
 
 /// How the motion is filmed.

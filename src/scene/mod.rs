@@ -6,7 +6,7 @@ mod error;
 mod load;
 
 pub use case::Case;
-pub use description::{Check, Engine, Film, Initial, Joints, Precision, Scene, Scheme, Simulation};
+pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;
 

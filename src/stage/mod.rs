@@ -96,8 +96,8 @@ impl Stage {
 /// From the front, a little above and to the side of the Jenkins element.
 fn camera() -> Camera {
     Camera {
-        eye: Vec3::new(-1.1, 2.5, 6.2),
-        target: Vec3::new(-0.15, 0.42, 0.0),
+        eye: Vec3::new(-1.4, 3.0, 8.6),
+        target: Vec3::new(-0.2, 0.45, 0.0),
         up: Vec3::Y,
         vertical_field_of_view: 0.62,
         viewport: [0.0, 0.05, SCENE_WIDTH, 0.95],

@@ -57,14 +57,13 @@ impl Motion {
     }
 
     /// Samples in `from..=to`, at most about `most` of them, evenly thinned out by their index so that the same ones are taken in every
-    /// frame, and the interpolated instant at `to`.
+    /// frame, between the interpolated instants at `from` and `to`.
     pub fn between(&self, from: f64, to: f64, most: usize) -> impl Iterator<Item = Instant> + '_ {
         let first = self.instants.partition_point(|instant| instant.time < from);
         let end = self.instants.partition_point(|instant| instant.time <= to).max(first);
         let stride = (end - first).div_ceil(most.max(1)).max(1);
-        (first.next_multiple_of(stride)..end)
-            .step_by(stride)
-            .map(|index| self.instants[index])
+        std::iter::once(self.at(from))
+            .chain((first.next_multiple_of(stride)..end).step_by(stride).map(|index| self.instants[index]))
             .chain(std::iter::once(self.at(to)))
     }
 
@@ -134,7 +133,7 @@ mod tests {
     fn a_window_ends_at_its_instant_and_is_thinned_to_its_limit() {
         let motion = circle(0.01, 1001);
         let points: Vec<_> = motion.between(2.0, 6.005, 100).collect();
-        assert!(points.len() <= 102 && points.len() > 80);
+        assert!(points.len() <= 103 && points.len() > 80);
         assert_eq!(points.last().unwrap().time, 6.005);
         assert!(points.iter().all(|p| p.time >= 2.0 && p.time <= 6.005));
         assert_eq!(motion.at(99.0), motion.at(10.0));

@@ -1,7 +1,7 @@
 //! A framed plot with ticks: maps data to overlay pixels.
 
 use super::palette;
-use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke};
+use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke, text_width};
 use glam::Vec2;
 
 /// A range of values with round tick marks.
@@ -74,7 +74,7 @@ impl Plot {
     #[must_use]
     pub fn area(&self) -> Rectangle {
         let s = self.scale;
-        Rectangle { min: self.panel.min + Vec2::new(50.0, 28.0) * s, max: self.panel.max - Vec2::new(14.0, 24.0) * s }
+        Rectangle { min: self.panel.min + Vec2::new(50.0, 40.0) * s, max: self.panel.max - Vec2::new(14.0, 24.0) * s }
     }
 
     /// Pixel of a data point.
@@ -93,10 +93,14 @@ impl Plot {
             fill: palette::PANEL.with_alpha(0.88),
             stroke: Some(self.stroke(1.0, palette::PANEL_EDGE)),
         });
+        // The label of the x axis stands at the right end of the tick labels, which leave it room.
+        let room = self.area().max.x - text_width(&self.x_label, 11.0 * self.scale, false) - 16.0 * self.scale;
         for value in self.x.ticks() {
             self.draw_rule([self.pixel(value, self.y.min), self.pixel(value, self.y.max)], value == 0.0, out);
             let place = self.pixel(value, self.y.min) + Vec2::new(0.0, 14.0) * self.scale;
-            out.push(self.text(place, Anchor::Centre, format!("{value:.*}", self.x.decimals())));
+            if place.x < room {
+                out.push(self.text(place, Anchor::Centre, format!("{value:.*}", self.x.decimals())));
+            }
         }
         for value in self.y.ticks() {
             self.draw_rule([self.pixel(self.x.min, value), self.pixel(self.x.max, value)], value == 0.0, out);
@@ -117,8 +121,8 @@ impl Plot {
             bold: true,
             text: self.title.to_owned(),
         });
-        out.push(self.text(Vec2::new(area.max.x - 4.0 * s, area.max.y - 6.0 * s), Anchor::Right, self.x_label.clone()));
-        out.push(self.text(area.min + Vec2::new(6.0, 13.0) * s, Anchor::Left, self.y_label.clone()));
+        out.push(self.text(area.max + Vec2::new(0.0, 14.0) * s, Anchor::Right, self.x_label.clone()));
+        out.push(self.text(area.min + Vec2::new(-6.0, -5.0) * s, Anchor::Right, self.y_label.clone()));
     }
 
     fn draw_rule(&self, ends: [Vec2; 2], zero: bool, out: &mut Vec<OverlayItem>) {
@@ -184,6 +188,6 @@ mod tests {
             y: Axis::exactly(-1.0, 1.0),
         };
         assert_eq!(plot.pixel(0.0, -1.0), Vec2::new(150.0, 226.0));
-        assert_eq!(plot.pixel(10.0, 1.0), Vec2::new(386.0, 78.0));
+        assert_eq!(plot.pixel(10.0, 1.0), Vec2::new(386.0, 90.0));
     }
 }

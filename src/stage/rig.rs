@@ -6,26 +6,27 @@
 use super::motion::Instant;
 use super::{contact_colour, palette};
 use crate::model::RigParameters;
-use crate::render::{Coil, Material, Mesh, Object, arrow, block, coil, cylinder, floor};
+use crate::render::shapes::{Coil, arrow, block, coil, cylinder, floor};
+use crate::render::{Material, Mesh, Object};
 use glam::{Affine3A, Quat, Vec3};
 use std::sync::Arc;
 
 /// Rest positions of the carriages along the rail, and half edges of a carriage.
 const REST: [f32; 2] = [-0.95, 1.15];
-const CARRIAGE: Vec3 = Vec3::new(0.36, 0.25, 0.34);
+const CARRIAGE: Vec3 = Vec3::new(0.38, 0.33, 0.38);
 /// Centre of the carriages above the floor, and the posts' inner faces.
-const HEIGHT: f32 = 0.52;
+const HEIGHT: f32 = 0.6;
 const POSTS: [f32; 2] = [-2.95, 2.6];
 /// Rest position and half edges of the slider block.
 const SLIDER_REST: f32 = -2.05;
-const SLIDER: Vec3 = Vec3::new(0.17, 0.1, 0.13);
+const SLIDER: Vec3 = Vec3::new(0.19, 0.13, 0.15);
 /// Largest magnified displacement.
 const ROOM: f32 = 0.5;
 /// Lines along which the elements act: height and depth.
-const GROUND_LINE: [f32; 2] = [HEIGHT + 0.06, -0.16];
-const COUPLING_LINE: [f32; 2] = [HEIGHT + 0.08, -0.15];
-const DAMPER_LINE: [f32; 2] = [HEIGHT - 0.04, 0.17];
-const JENKINS_LINE: [f32; 2] = [HEIGHT - 0.08, 0.2];
+const GROUND_LINE: [f32; 2] = [HEIGHT + 0.09, -0.17];
+const COUPLING_LINE: [f32; 2] = [HEIGHT + 0.11, -0.14];
+const DAMPER_LINE: [f32; 2] = [HEIGHT - 0.1, 0.2];
+const JENKINS_LINE: [f32; 2] = [HEIGHT - 0.12, 0.22];
 /// Length of the self-excitation's arrow at the largest speed.
 const ARROW: f32 = 0.75;
 
@@ -141,10 +142,10 @@ fn fixed_parts() -> Vec<Object> {
     ];
     for z in [-0.24, 0.24] {
         let rail = Arc::new(cylinder(right - left, 0.045, 0.005, 24));
-        parts.push(object(rail, Vec3::new(left, HEIGHT - CARRIAGE.y - 0.03, z), palette::RAIL));
+        parts.push(object(rail, Vec3::new(left, HEIGHT - CARRIAGE.y - 0.035, z), palette::RAIL));
     }
     for x in [left - 0.1, right + 0.1] {
-        parts.push(block(Vec3::new(0.1, 0.42, 0.42), 0.03, Vec3::new(x, 0.5, 0.0), palette::POST));
+        parts.push(block(Vec3::new(0.1, 0.5, 0.45), 0.03, Vec3::new(x, 0.58, 0.0), palette::POST));
     }
     parts
 }
