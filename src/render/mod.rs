@@ -4,6 +4,7 @@ mod cpu;
 mod draw_list;
 mod error;
 mod geometry;
+mod look;
 mod open;
 mod overlay;
 mod portable;

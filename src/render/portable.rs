@@ -72,7 +72,7 @@ fn tables() -> &'static SrgbTables {
         let mut code = 0_u8;
         let encode = (0..ENCODE_STEPS)
             .map(|step| {
-                let root = (step as f64 + 0.5) / ENCODE_STEPS as f64;
+                let root = (step as f64 + 0.5) / (ENCODE_STEPS - 1) as f64;
                 while code < 255 && srgb_to_linear((f64::from(code) + 0.5) / 255.0) < root * root {
                     code += 1;
                 }
@@ -90,8 +90,9 @@ pub(crate) fn decode(code: u8) -> f32 {
 
 /// Nearest sRGB code of a light in 0..=1 (clamped).
 pub(crate) fn encode(linear: f32) -> u8 {
-    let step = (linear.clamp(0.0, 1.0).sqrt() * ENCODE_STEPS as f32) as usize;
-    tables().encode[step.min(ENCODE_STEPS - 1)]
+    // The i32 conversion is the cheap one, and the clamp makes it exact.
+    let step = (linear.clamp(0.0, 1.0).sqrt() * (ENCODE_STEPS - 1) as f32) as i32;
+    tables().encode[step as usize]
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! A frame passes through four stages: the shadow map is drawn; triangles are projected and sorted into tiles; every tile finds the nearest triangle
 //! at four samples a pixel; every pixel is lit once for each triangle it shows, tone mapped, averaged over its samples and encoded.
 
+mod lanes;
 mod shade;
 mod shadow;
 mod tile;
@@ -21,7 +22,7 @@ use rayon::prelude::*;
 use shade::Lighting;
 use shadow::ShadowMap;
 use std::time::Instant;
-use tile::{TILE_HEIGHT, Tile, TileBins};
+use tile::{Frame, TILE_HEIGHT, Tile, TileBins};
 use triangles::Projected;
 
 /// Largest side of a picture.
@@ -52,6 +53,7 @@ impl CpuRenderer {
         let projected = Projected::new(&geometry, &camera, list.size);
         self.bins.sort(&projected.triangles, list.size);
         let lighting = Lighting::new(list, &self.shadow);
+        let frame = Frame { projected: &projected, surfaces: &geometry.surfaces, lighting };
         let backdrop = backdrop(&list.background, list.size[1]);
         let mut image = RgbaImage::new(list.size[0], list.size[1]);
         let row_bytes = 4 * list.size[0] as usize;
@@ -59,7 +61,7 @@ impl CpuRenderer {
             let backdrop = &backdrop[band * TILE_HEIGHT..];
             for (column, members) in self.bins.band(band).enumerate() {
                 tile.find_visible(&projected, members, [column, band]);
-                tile.resolve(&projected, &geometry.surfaces, &lighting, backdrop, rows, row_bytes, column);
+                tile.resolve(&frame, backdrop, rows, row_bytes);
             }
         });
         Ok(image)

@@ -1,135 +1,149 @@
-//! Light of a point of a surface: sun with GGX highlight and shadow, hemisphere, tone mapping. The same as `gpu/scene.wgsl`.
+//! Light of four points of surfaces: sun with GGX highlight and shadow, hemisphere, tone mapping. The same as `gpu/scene.wgsl`.
 
+use super::lanes::{Lanes3, fifth_power, smoothstep};
 use super::shadow::ShadowMap;
 use crate::render::draw_list::DrawList;
-use crate::render::geometry::{Surface, linear};
-use glam::Vec3;
+use crate::render::geometry::linear;
+use crate::render::look::{FADE, HORIZON, PANEL, PLAIN_MIRROR, SKY_IN_SHADOW};
+use glam::{Vec3, Vec4};
 
-/// Surfaces begin and end to fade into the backdrop at these multiples of the shadow radius.
-pub(crate) const FADE: [f32; 2] = [1.0, 2.6];
-/// Part of the sky's light that a point in full shadow still gets: what hides the sun hides some sky.
-pub(crate) const SKY_IN_SHADOW: f32 = 0.72;
+/// Four points to be lit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Points {
+    pub position: Lanes3,
+    /// Any length.
+    pub normal: Lanes3,
+    pub colour: Lanes3,
+    pub roughness: Vec4,
+    pub metallic: Vec4,
+    pub glow: Vec4,
+}
 
 #[derive(Debug)]
 pub(super) struct Lighting<'a> {
-    eye: Vec3,
-    towards: Vec3,
-    sun: Vec3,
-    sky: Vec3,
-    ground: Vec3,
-    centre: Vec3,
+    eye: Lanes3,
+    towards: Lanes3,
+    sun: Lanes3,
+    sky: Lanes3,
+    ground: Lanes3,
+    centre: Lanes3,
     radius: f32,
     shadow: &'a ShadowMap,
+}
+
+/// How a point stands to eye and sun; all vectors are unit vectors.
+struct Stand {
+    normal: Lanes3,
+    view: Lanes3,
+    facing_eye: Vec4,
+    facing_sun: Vec4,
 }
 
 impl<'a> Lighting<'a> {
     pub fn new(list: &DrawList, shadow: &'a ShadowMap) -> Self {
         let light = &list.light;
         Self {
-            eye: list.camera.eye,
-            towards: light.direction.normalize_or(Vec3::Y),
-            sun: linear(light.colour.0) * light.intensity,
-            sky: linear(light.sky.0),
-            ground: linear(light.ground.0),
-            centre: light.shadow_centre,
+            eye: Lanes3::splat(list.camera.eye),
+            towards: Lanes3::splat(light.direction.normalize_or(Vec3::Y)),
+            sun: Lanes3::splat(linear(light.colour.0) * light.intensity),
+            sky: Lanes3::splat(linear(light.sky.0)),
+            ground: Lanes3::splat(linear(light.ground.0)),
+            centre: Lanes3::splat(light.shadow_centre),
             radius: light.shadow_radius,
             shadow,
         }
     }
 
     /// Tone mapped linear light, faded into the backdrop.
-    pub fn shade(&self, position: Vec3, normal: Vec3, surface: &Surface, backdrop: Vec3) -> Vec3 {
-        let fade = smoothstep(FADE, (position - self.centre).length() / self.radius);
-        if fade >= 1.0 {
+    pub fn shade(&self, points: &Points, backdrop: Lanes3) -> Lanes3 {
+        let distance = (points.position - self.centre).length() / self.radius;
+        let fade = smoothstep(Vec4::splat(FADE[0]), Vec4::splat(FADE[1]), distance);
+        if fade == Vec4::ONE {
             return backdrop;
         }
-        let normal = normal.normalize_or(Vec3::Y);
-        let colour = tone_map(self.reflected(position, normal, surface) + surface.colour * surface.glow);
-        colour + (backdrop - colour) * fade
+        let colour = tone_map(self.reflected(points) + points.colour * points.glow);
+        colour.towards(backdrop, fade)
     }
 
-    fn reflected(&self, position: Vec3, normal: Vec3, surface: &Surface) -> Vec3 {
-        let view = (self.eye - position).normalize_or(normal);
-        let facing_eye = normal.dot(view).max(1e-3);
-        let facing_sun = normal.dot(self.towards).max(0.0);
-        let lit = if facing_sun > 0.0 { self.shadow.lit(position, normal) } else { 0.0 };
-        let matt = surface.colour * (1.0 - surface.metallic);
-        let mirror = Vec3::splat(0.04) + (surface.colour - Vec3::splat(0.04)) * surface.metallic;
-
-        let sun = if lit > 0.0 {
-            let highlight = self.highlight(normal, view, facing_eye, facing_sun, surface.roughness, mirror);
-            self.sun * (matt + highlight) * (facing_sun * lit)
-        } else {
-            Vec3::ZERO
+    fn reflected(&self, points: &Points) -> Lanes3 {
+        let normal = points.normal.normalize();
+        let view = (self.eye - points.position).normalize();
+        let facing_eye = normal.dot(view);
+        let stand = Stand {
+            normal,
+            view,
+            facing_eye: facing_eye.max(Vec4::splat(1e-3)),
+            facing_sun: normal.dot(self.towards).max(Vec4::ZERO),
         };
-        let diffuse = matt * self.hemisphere(normal.y * 0.5 + 0.5);
-        let gloss = 1.0 - surface.roughness;
-        let fresnel = mirror + (mirror.max(Vec3::splat(gloss)) - mirror) * fifth(1.0 - facing_eye);
-        let bounced = normal * (2.0 * normal.dot(view)) - view;
-        let ambient = diffuse + fresnel * self.surroundings(bounced.y, surface.roughness);
-        sun + ambient * (SKY_IN_SHADOW + (1.0 - SKY_IN_SHADOW) * lit)
+        let lit = self.shadow.lit(points.position, normal, stand.facing_sun);
+        let matt = points.colour * (Vec4::ONE - points.metallic);
+        let mirror = Lanes3::grey(Vec4::splat(PLAIN_MIRROR)).towards(points.colour, points.metallic);
+        let mut light = self.ambient(&stand, matt, mirror, points.roughness, facing_eye, lit);
+        if lit != Vec4::ZERO {
+            let highlight = self.highlight(&stand, points.roughness, mirror);
+            light = light + self.sun * (matt + highlight) * (stand.facing_sun * lit);
+        }
+        light
+    }
+
+    /// Sky and ground, matt and mirrored.
+    fn ambient(&self, stand: &Stand, matt: Lanes3, mirror: Lanes3, roughness: Vec4, facing: Vec4, lit: Vec4) -> Lanes3 {
+        let half = Vec4::splat(0.5);
+        let diffuse = matt * self.hemisphere(stand.normal.y * half + half);
+        let glancing = fifth_power(Vec4::ONE - stand.facing_eye);
+        let fresnel = mirror.towards(mirror.max(Lanes3::grey(Vec4::ONE - roughness)), glancing);
+        let bounced = stand.normal.y * (facing * 2.0) - stand.view.y;
+        let sky = Vec4::splat(SKY_IN_SHADOW) + lit * (1.0 - SKY_IN_SHADOW);
+        (diffuse + fresnel * self.surroundings(bounced, roughness)) * sky
     }
 
     /// GGX distribution, Hammon's approximation of Smith's masking, Schlick's Fresnel; times pi, as the sun's intensity is what
     /// a white matt surface shows.
-    fn highlight(
-        &self,
-        normal: Vec3,
-        view: Vec3,
-        facing_eye: f32,
-        facing_sun: f32,
-        roughness: f32,
-        mirror: Vec3,
-    ) -> Vec3 {
-        let half = (view + self.towards).normalize_or(normal);
+    fn highlight(&self, stand: &Stand, roughness: Vec4, mirror: Lanes3) -> Lanes3 {
+        let half = (stand.view + self.towards).normalize();
         let alpha = roughness * roughness;
-        let across = normal.dot(half).max(0.0);
-        let spread = across * across * (alpha * alpha - 1.0) + 1.0;
-        let distribution = alpha * alpha / (spread * spread);
-        let both = 2.0 * facing_eye * facing_sun;
-        let visibility = 0.5 / (both + (facing_eye + facing_sun - both) * alpha);
-        let fresnel = mirror + (Vec3::ONE - mirror) * fifth(1.0 - view.dot(half).max(0.0));
-        fresnel * (distribution * visibility)
+        let across = stand.normal.dot(half).max(Vec4::ZERO);
+        let spread = across * across * (alpha * alpha - Vec4::ONE) + Vec4::ONE;
+        let both = stand.facing_eye * stand.facing_sun * 2.0;
+        let masking = both + (stand.facing_eye + stand.facing_sun - both) * alpha;
+        let strength = alpha * alpha * 0.5 / (spread * spread * masking);
+        let glancing = fifth_power(Vec4::ONE - stand.view.dot(half).max(Vec4::ZERO));
+        mirror.towards(Lanes3::grey(Vec4::ONE), glancing) * strength
     }
 
-    fn hemisphere(&self, up: f32) -> Vec3 {
-        self.ground + (self.sky - self.ground) * up
+    fn hemisphere(&self, up: Vec4) -> Lanes3 {
+        self.ground.towards(self.sky, up)
     }
 
-    /// What a mirror sees in a direction with the given height: ground, a horizon the softer the duller the mirror, sky, and in
+    /// What a mirror sees in a direction of the given height: ground, a horizon the softer the duller the mirror, sky, and in
     /// the sky a wide bright panel as photographers use it.
-    fn surroundings(&self, up: f32, roughness: f32) -> Vec3 {
-        let soft = 0.15 + 0.85 * roughness;
-        let open = self.hemisphere(smoothstep([-soft, soft], up));
-        let panel = smoothstep([0.45 - 0.4 * roughness, 0.75 + 0.4 * roughness], up);
-        open + self.sky * (panel * 0.9)
+    fn surroundings(&self, up: Vec4, roughness: Vec4) -> Lanes3 {
+        let soft = Vec4::splat(HORIZON) + roughness * (1.0 - HORIZON);
+        let open = self.hemisphere(smoothstep(-soft, soft, up));
+        let low = Vec4::splat(PANEL.low) - roughness * PANEL.blur;
+        let high = Vec4::splat(PANEL.high) + roughness * PANEL.blur;
+        open + self.sky * (smoothstep(low, high, up) * PANEL.strength)
     }
-}
-
-fn smoothstep([low, high]: [f32; 2], value: f32) -> f32 {
-    let part = ((value - low) / (high - low)).clamp(0.0, 1.0);
-    part * part * (3.0 - 2.0 * part)
-}
-
-fn fifth(x: f32) -> f32 {
-    let square = x * x;
-    square * square * x
 }
 
 /// Khronos PBR neutral tone mapper (specification 1.0): leaves colours as they are up to 0.8, then rolls off without changing hue.
-fn tone_map(colour: Vec3) -> Vec3 {
+fn tone_map(colour: Lanes3) -> Lanes3 {
     const START: f32 = 0.8 - 0.04;
+    const ROOM: f32 = 1.0 - START;
     const DESATURATION: f32 = 0.15;
-    let least = colour.min_element();
-    let offset = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
-    let colour = colour - Vec3::splat(offset);
-    let peak = colour.max_element();
-    if peak < START {
+    let least = colour.x.min(colour.y).min(colour.z);
+    let toe = least - least * least * 6.25;
+    let offset = Vec4::select(least.cmplt(Vec4::splat(0.08)), toe, Vec4::splat(0.04));
+    let colour = colour - Lanes3::grey(offset);
+    let peak = colour.x.max(colour.y).max(colour.z);
+    let bright = peak.cmpge(Vec4::splat(START));
+    if !bright.any() {
         return colour;
     }
-    let room = 1.0 - START;
-    let rolled = 1.0 - room * room / (peak + room - START);
-    let fade = 1.0 - 1.0 / (DESATURATION * (peak - rolled) + 1.0);
-    let scaled = colour * (rolled / peak);
-    scaled + (Vec3::splat(rolled) - scaled) * fade
+    let peak = peak.max(Vec4::splat(START));
+    let rolled = Vec4::ONE - Vec4::splat(ROOM * ROOM) / (peak + Vec4::splat(ROOM - START));
+    let fade = Vec4::ONE - Vec4::ONE / ((peak - rolled) * DESATURATION + Vec4::ONE);
+    let mapped = (colour * (rolled / peak)).towards(Lanes3::grey(rolled), fade);
+    let pick = |mapped, colour| Vec4::select(bright, mapped, colour);
+    Lanes3 { x: pick(mapped.x, colour.x), y: pick(mapped.y, colour.y), z: pick(mapped.z, colour.z) }
 }

@@ -1,22 +1,20 @@
 //! Shadow map: height towards the light of the nearest caster over each texel, and its filtered lookup.
 
+use super::lanes::Lanes3;
 use crate::render::geometry::Geometry;
+use crate::render::look::{BIAS, STEEPEST, TAPS};
 use crate::render::view::{LightView, SHADOW_SIZE};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
 const SIZE: usize = SHADOW_SIZE as usize;
 /// Side of the blocks whose extremes decide most lookups at once. At least the filter's width, so that a lookup touches four at most.
-const BLOCK: usize = 16;
+const BLOCK: usize = 8;
 const BLOCKS: usize = SIZE / BLOCK;
-/// Filter weights of five bilinear taps along each axis.
-pub(crate) const TAPS: [f32; 5] = [1.0 / 9.0, 2.0 / 9.0, 3.0 / 9.0, 2.0 / 9.0, 1.0 / 9.0];
 /// Texels that five bilinear taps reach.
 const REACH: usize = TAPS.len() + 1;
-/// Texels by which a surface must lie below a caster to be in its shadow.
-pub(crate) const BIAS: f32 = 1.0;
-/// Slopes against the light beyond which the filter follows the surface no further.
-pub(crate) const STEEPEST: f32 = 4.0;
+/// Texels that are read: two groups of four.
+const READ: usize = 8;
 
 #[derive(Debug)]
 pub(super) struct ShadowMap {
@@ -58,30 +56,43 @@ impl ShadowMap {
         });
     }
 
-    /// Part of the light, 0 to 1, that reaches a surface which faces it. `normal` is a unit vector.
-    pub fn lit(&self, position: Vec3, normal: Vec3) -> f32 {
-        let [u, v, towards] = self.view.axes;
-        let place = self.view.project(position);
-        let facing = normal.dot(towards).max(1e-3);
+    /// Part of the light, 0 to 1, that reaches four points with unit normals; 0 where `facing`, the normal's part along the light, is 0.
+    pub fn lit(&self, position: Lanes3, normal: Lanes3, facing: Vec4) -> Vec4 {
+        let [u, v, towards] = self.view.axes.map(Lanes3::splat);
+        let from_centre = position - Lanes3::splat(self.view.centre);
+        let across = |axis: Lanes3| (from_centre.dot(axis) + Vec4::splat(self.view.radius)) / self.view.texel;
         // Along the surface the height changes by this much per texel.
-        let slope = |axis: Vec3| (-normal.dot(axis) / facing).clamp(-STEEPEST, STEEPEST) * self.view.texel;
-        let slope = Vec2::new(slope(u), slope(v));
-        let steepness = slope.x.abs() + slope.y.abs();
-        let height = place.z + BIAS * (self.view.texel + steepness);
-        let first = (place.truncate() - Vec2::splat(0.5 + (REACH / 2 - 1) as f32)).floor();
-        if !(first.min_element() >= 0.0 && first.max_element() < (SIZE - REACH) as f32) {
+        let flat = Vec4::splat(-self.view.texel) / facing.max(Vec4::splat(1e-3));
+        let limit = Vec4::splat(STEEPEST * self.view.texel);
+        let slope = |axis: Lanes3| (normal.dot(axis) * flat).clamp(-limit, limit);
+        let (slope_u, slope_v) = (slope(u), slope(v));
+        let steepness = slope_u.abs() + slope_v.abs();
+        let height = from_centre.dot(towards) + (steepness + Vec4::splat(self.view.texel)) * BIAS;
+        let places = Lanes3 { x: across(u), y: across(v), z: height };
+        let slopes = Lanes3 { x: slope_u, y: slope_v, z: steepness };
+        let mut lit = [0.0; 4];
+        for (lane, lit) in lit.iter_mut().enumerate().filter(|(lane, _)| facing[*lane] > 0.0) {
+            *lit = self.look_up(places.lane(lane), slopes.lane(lane));
+        }
+        Vec4::from_array(lit)
+    }
+
+    /// `place` holds texels and height, `slope` the height's changes per texel and the sum of their sizes.
+    fn look_up(&self, place: Vec3, slope: Vec3) -> f32 {
+        let first = place.truncate() - Vec2::splat(0.5 + (REACH / 2 - 1) as f32);
+        if !(first.min_element() >= 0.0 && first.max_element() < (SIZE - READ) as f32) {
             return 1.0;
         }
         let (column, row) = (first.x as usize, first.y as usize);
         let [low, high] = self.extremes(column, row);
-        let reach = steepness * (REACH as f32 / 2.0);
-        if high <= height - reach {
+        let reach = slope.z * (REACH as f32 / 2.0);
+        if high <= place.z - reach {
             return 1.0;
         }
-        if low > height + reach {
+        if low > place.z + reach {
             return 0.0;
         }
-        self.filtered(column, row, place.truncate(), height, slope)
+        self.filtered(column, row, place.truncate(), place.z, slope.truncate())
     }
 
     /// Lowest and highest texel of the blocks the filter may touch.
@@ -97,24 +108,26 @@ impl ShadowMap {
     fn filtered(&self, column: usize, row: usize, place: Vec2, height: f32, slope: Vec2) -> f32 {
         let centre = Vec2::new(column as f32 + 0.5, row as f32 + 0.5) - place;
         let (across, down) = (weights(-centre.x), weights(-centre.y));
-        let mut lit = 0.0;
-        for (j, weight) in down.iter().enumerate() {
-            let start = (row + j) * SIZE + column;
-            let line = height + slope.y * (centre.y + j as f32) + slope.x * centre.x;
-            let mut sum = 0.0;
-            for (i, (caster, part)) in self.height[start..start + REACH].iter().zip(&across).enumerate() {
-                sum += if *caster <= line + slope.x * i as f32 { *part } else { 0.0 };
-            }
-            lit += sum * weight;
+        let [left, right] = [0, 4].map(|start| Vec4::from_slice(&across[start..]));
+        let steps = Vec4::new(0.0, 1.0, 2.0, 3.0) * slope.x;
+        let mut lit = Vec4::ZERO;
+        for (j, weight) in down.iter().enumerate().take(REACH) {
+            let texels = &self.height[(row + j) * SIZE + column..][..READ];
+            let start = height + slope.y * (centre.y + j as f32) + slope.x * centre.x;
+            let surface = Vec4::splat(start) + steps;
+            let clear = Vec4::from_slice(texels).cmple(surface);
+            let clear_right = Vec4::from_slice(&texels[4..]).cmple(surface + Vec4::splat(4.0 * slope.x));
+            let sum = Vec4::select(clear, left, Vec4::ZERO) + Vec4::select(clear_right, right, Vec4::ZERO);
+            lit += sum * *weight;
         }
-        lit
+        (lit.x + lit.y) + (lit.z + lit.w)
     }
 }
 
-/// What five bilinear taps add up to on six texels, when the surface lies `offset` (2 to 3) texels beyond the first one's centre.
-fn weights(offset: f32) -> [f32; REACH] {
+/// What five bilinear taps add up to on six texels (two more stay zero), when the surface lies `offset` (2 to 3) texels beyond the first one's centre.
+fn weights(offset: f32) -> [f32; READ] {
     let part = offset - (REACH / 2 - 1) as f32;
-    let mut weights = [0.0; REACH];
+    let mut weights = [0.0; READ];
     for (tap, weight) in TAPS.iter().enumerate() {
         weights[tap] += weight * (1.0 - part);
         weights[tap + 1] += weight * part;
@@ -137,6 +150,7 @@ fn raise(texels: &mut [f32], first_row: usize, corners: &[Vec3; 3]) {
     if area == 0.0 {
         return;
     }
+    let per_area = 1.0 / area;
     let [start, end] = rows(corners);
     let column = |place: f32| place.clamp(0.0, SIZE as f32) as usize;
     let columns = column(a.x.min(b.x).min(c.x))..(column(a.x.max(b.x).max(c.x)) + 1).min(SIZE);
@@ -145,8 +159,8 @@ fn raise(texels: &mut [f32], first_row: usize, corners: &[Vec3; 3]) {
         let y = row as f32 + 0.5 - a.y;
         for (x, texel) in columns.clone().zip(&mut line[columns.clone()]) {
             let x = x as f32 + 0.5 - a.x;
-            let second = (x * ac.y - y * ac.x) / area;
-            let third = (y * ab.x - x * ab.y) / area;
+            let second = (x * ac.y - y * ac.x) * per_area;
+            let third = (y * ab.x - x * ab.y) * per_area;
             let height = a.z + second * ab.z + third * ac.z;
             if second >= 0.0 && third >= 0.0 && second + third <= 1.0 && height > *texel {
                 *texel = height;

@@ -5,7 +5,8 @@
 //! twice or lost. Coefficients are formed in f64 relative to the tile's corner; within the tile f32 is ample.
 
 use super::BackdropRow;
-use super::shade::Lighting;
+use super::lanes::Lanes3;
+use super::shade::{Lighting, Points};
 use super::triangles::{Projected, ScreenTriangle};
 use crate::render::geometry::Surface;
 use crate::render::portable::encode;
@@ -56,12 +57,21 @@ pub(super) struct Tile {
     depth: Vec<Vec4>,
     triangle: Vec<Vec4>,
     origin: Vec2,
+    /// Of the row that is being lit.
+    fragments: Vec<Fragment>,
+    light: Vec<Vec3>,
 }
 
 impl Default for Tile {
     fn default() -> Self {
         let pixels = TILE_WIDTH * TILE_HEIGHT;
-        Self { depth: vec![Vec4::ZERO; pixels], triangle: vec![NOTHING; pixels], origin: Vec2::ZERO }
+        Self {
+            depth: vec![Vec4::ZERO; pixels],
+            triangle: vec![NOTHING; pixels],
+            origin: Vec2::ZERO,
+            fragments: Vec::new(),
+            light: vec![Vec3::ZERO; TILE_WIDTH],
+        }
     }
 }
 
@@ -140,71 +150,132 @@ impl Tile {
     }
 
     /// Lights what is visible and writes the tile into the band of image rows it lies in.
-    #[expect(clippy::too_many_arguments, reason = "the whole state of a frame meets here, once")]
-    pub fn resolve(
-        &self,
-        projected: &Projected,
-        surfaces: &[Surface],
-        lighting: &Lighting<'_>,
-        backdrop: &[BackdropRow],
-        rows: &mut [u8],
-        row_bytes: usize,
-        column: usize,
-    ) {
-        let left = column * TILE_WIDTH * 4;
-        for (y, (row, backdrop)) in rows.chunks_exact_mut(row_bytes).zip(backdrop).enumerate() {
-            for (x, pixel) in row[left..].chunks_exact_mut(4).take(TILE_WIDTH).enumerate() {
-                let seen = self.triangle[y * TILE_WIDTH + x];
-                let corner = self.origin + Vec2::new(x as f32, y as f32);
-                let light = |number: f32, place: Vec2| {
-                    fragment(projected, surfaces, lighting, number, corner + place, backdrop)
-                };
-                let first = seen.x;
-                let bytes = if seen == NOTHING {
-                    backdrop.bytes
-                } else if seen == Vec4::splat(first) {
-                    bytes(light(first, Vec2::splat(0.5)))
-                } else {
-                    bytes(blend(seen.to_array(), light, backdrop.light))
-                };
-                pixel.copy_from_slice(&bytes);
+    pub fn resolve(&mut self, frame: &Frame<'_>, backdrop: &[BackdropRow], rows: &mut [u8], row_bytes: usize) {
+        let left = self.origin.x as usize * 4;
+        let width = TILE_WIDTH.min((row_bytes - left) / 4);
+        for (y, backdrop) in backdrop.iter().enumerate().take(rows.len() / row_bytes) {
+            self.list_fragments(y, width, backdrop.light);
+            self.light_fragments(frame, backdrop.light);
+            let row = &mut rows[y * row_bytes + left..][..width * 4];
+            for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
+                let empty = self.triangle[y * TILE_WIDTH + x] == NOTHING;
+                pixel.copy_from_slice(&if empty { backdrop.bytes } else { bytes(self.light[x]) });
+            }
+        }
+    }
+
+    /// What must be lit in one row: each triangle once a pixel, in the middle of the samples it covers.
+    fn list_fragments(&mut self, row: usize, width: usize, backdrop: Vec3) {
+        self.fragments.clear();
+        self.light.fill(Vec3::ZERO);
+        for column in 0..width {
+            let seen = self.triangle[row * TILE_WIDTH + column];
+            let corner = self.origin + Vec2::new(column as f32, row as f32);
+            if seen == NOTHING {
+                continue;
+            }
+            if seen == Vec4::splat(seen.x) {
+                let (place, triangle) = (corner + Vec2::splat(0.5), seen.x as u32);
+                self.fragments.push(Fragment { triangle, place, pixel: column, weight: 1.0 });
+                continue;
+            }
+            let seen = seen.to_array();
+            for (sample, &number) in
+                seen.iter().enumerate().filter(|&(sample, number)| !seen[..sample].contains(number))
+            {
+                let covered = || (sample..4).filter(|&other| seen[other] == number);
+                let count = covered().count() as f32;
+                let weight = count / 4.0;
+                if number < 0.0 {
+                    self.light[column] += backdrop * weight;
+                    continue;
+                }
+                let place = corner + covered().map(|other| SAMPLES[other]).sum::<Vec2>() / count;
+                self.fragments.push(Fragment { triangle: number as u32, place, pixel: column, weight });
+            }
+        }
+    }
+
+    fn light_fragments(&mut self, frame: &Frame<'_>, backdrop: Vec3) {
+        for group in self.fragments.chunks(4) {
+            // The last group repeats its last member and drops the surplus.
+            let member = |lane: usize| &group[lane.min(group.len() - 1)];
+            let points = frame.points([member(0), member(1), member(2), member(3)]);
+            let lights = frame.lighting.shade(&points, Lanes3::splat(backdrop));
+            for (lane, fragment) in group.iter().enumerate() {
+                self.light[fragment.pixel] += lights.lane(lane) * fragment.weight;
             }
         }
     }
 }
 
-/// Mean of the samples, each triangle lit once, in the middle of the samples it covers.
-fn blend(seen: [f32; 4], light: impl Fn(f32, Vec2) -> Vec3, backdrop: Vec3) -> Vec3 {
-    let mut sum = Vec3::ZERO;
-    for (sample, &number) in seen.iter().enumerate() {
-        if seen[..sample].contains(&number) {
-            continue;
-        }
-        let covered = || (0..4).filter(|&other| seen[other] == number);
-        let count = covered().count() as f32;
-        let middle = covered().map(|other| SAMPLES[other]).sum::<Vec2>() / count;
-        sum += if number < 0.0 { backdrop } else { light(number, middle) } * (count / 4.0);
-    }
-    sum
+/// A triangle in a pixel.
+#[derive(Debug, Clone, Copy)]
+struct Fragment {
+    triangle: u32,
+    /// Where on the screen it is lit.
+    place: Vec2,
+    /// Column in the tile.
+    pixel: usize,
+    /// Part of the pixel's samples.
+    weight: f32,
 }
 
-/// Tone mapped light of a triangle at a place on the screen.
-fn fragment(
-    projected: &Projected,
-    surfaces: &[Surface],
-    lighting: &Lighting<'_>,
-    number: f32,
-    place: Vec2,
-    backdrop: &BackdropRow,
-) -> Vec3 {
-    let triangle = &projected.triangles[number as usize];
-    let [a, b, c] = triangle.vertices.map(|vertex| &projected.vertices[vertex as usize]);
-    let from = place - triangle.corners[0];
-    let distance = 1.0 / triangle.inverse_distance.at(from);
-    let [second, third] = triangle.weights.map(|plane| plane.at(from) * distance);
-    let position = a.position + (b.position - a.position) * second + (c.position - a.position) * third;
-    let normal = a.normal + (b.normal - a.normal) * second + (c.normal - a.normal) * third;
-    lighting.shade(position, normal, &surfaces[a.surface as usize], backdrop.light)
+/// All that resolving a tile reads.
+#[derive(Debug)]
+pub(super) struct Frame<'a> {
+    pub projected: &'a Projected,
+    pub surfaces: &'a [Surface],
+    pub lighting: Lighting<'a>,
+}
+
+impl Frame<'_> {
+    /// Interpolates four fragments, correct in perspective.
+    fn points(&self, fragments: [&Fragment; 4]) -> Points {
+        // Lane by lane into plain arrays: the compiler keeps the loop flat, which it does not for nested maps.
+        let mut lanes = [[0.0; 4]; 12];
+        for (lane, fragment) in fragments.into_iter().enumerate() {
+            let triangle = &self.projected.triangles[fragment.triangle as usize];
+            let [a, b, c] = triangle.vertices;
+            let vertices = &self.projected.vertices;
+            let (a, b, c) = (&vertices[a as usize], &vertices[b as usize], &vertices[c as usize]);
+            let from = fragment.place - triangle.corners[0];
+            let distance = 1.0 / triangle.inverse_distance.at(from);
+            let second = triangle.weights[0].at(from) * distance;
+            let third = triangle.weights[1].at(from) * distance;
+            let position = a.position + (b.position - a.position) * second + (c.position - a.position) * third;
+            let normal = a.normal + (b.normal - a.normal) * second + (c.normal - a.normal) * third;
+            let surface = &self.surfaces[a.surface as usize];
+            let colour = surface.colour;
+            let values = [
+                position.x,
+                position.y,
+                position.z,
+                normal.x,
+                normal.y,
+                normal.z,
+                colour.x,
+                colour.y,
+                colour.z,
+                surface.roughness,
+                surface.metallic,
+                surface.glow,
+            ];
+            for (row, value) in lanes.iter_mut().zip(values) {
+                row[lane] = value;
+            }
+        }
+        let four = |row: usize| Vec4::from_array(lanes[row]);
+        let three = |row: usize| Lanes3 { x: four(row), y: four(row + 1), z: four(row + 2) };
+        Points {
+            position: three(0),
+            normal: three(3),
+            colour: three(6),
+            roughness: four(9),
+            metallic: four(10),
+            glow: four(11),
+        }
+    }
 }
 
 fn bytes(light: Vec3) -> [u8; 4] {
