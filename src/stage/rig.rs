@@ -13,20 +13,20 @@ use std::sync::Arc;
 
 /// Rest positions of the carriages along the rail, and half edges of a carriage.
 const REST: [f32; 2] = [-0.95, 1.15];
-const CARRIAGE: Vec3 = Vec3::new(0.38, 0.33, 0.38);
+const CARRIAGE: Vec3 = Vec3::new(0.38, 0.33, 0.48);
 /// Centre of the carriages above the floor, and the posts' inner faces.
 const HEIGHT: f32 = 0.6;
 const POSTS: [f32; 2] = [-2.95, 2.6];
 /// Rest position and half edges of the slider block.
 const SLIDER_REST: f32 = -2.05;
-const SLIDER: Vec3 = Vec3::new(0.19, 0.13, 0.15);
+const SLIDER: Vec3 = Vec3::new(0.19, 0.13, 0.11);
 /// Largest magnified displacement.
 const ROOM: f32 = 0.5;
 /// Lines along which the elements act: height and depth.
 const GROUND_LINE: [f32; 2] = [HEIGHT + 0.09, -0.17];
 const COUPLING_LINE: [f32; 2] = [HEIGHT + 0.11, -0.14];
-const DAMPER_LINE: [f32; 2] = [HEIGHT - 0.1, 0.2];
-const JENKINS_LINE: [f32; 2] = [HEIGHT - 0.12, 0.22];
+const DAMPER_LINE: [f32; 2] = [HEIGHT - 0.1, 0.22];
+const JENKINS_LINE: [f32; 2] = [HEIGHT - 0.22, 0.36];
 /// Length of the self-excitation's arrow at the largest speed.
 const ARROW: f32 = 0.75;
 
@@ -132,20 +132,20 @@ fn fixed_parts() -> Vec<Object> {
     let pad_top = JENKINS_LINE[0] - SLIDER.y;
     let mut parts = vec![
         Object { casts_shadow: false, ..object(Arc::new(floor(40.0, 40.0)), Vec3::ZERO, palette::FLOOR) },
-        block(Vec3::new(half_length, 0.05, 0.5), 0.02, Vec3::new(middle, 0.05, 0.0), palette::POST),
+        block(Vec3::new(half_length, 0.05, 0.62), 0.02, Vec3::new(middle, 0.05, 0.0), palette::POST),
         block(
-            Vec3::new(0.62, 0.5 * (pad_top - 0.1), 0.17),
+            Vec3::new(0.62, 0.5 * (pad_top - 0.1), 0.13),
             0.012,
             Vec3::new(SLIDER_REST - 0.02, 0.1 + 0.5 * (pad_top - 0.1), JENKINS_LINE[1]),
             palette::PAD,
         ),
     ];
-    for z in [-0.24, 0.24] {
+    for z in [-0.2, 0.2] {
         let rail = Arc::new(cylinder(right - left, 0.045, 0.005, 24));
         parts.push(object(rail, Vec3::new(left, HEIGHT - CARRIAGE.y - 0.035, z), palette::RAIL));
     }
     for x in [left - 0.1, right + 0.1] {
-        parts.push(block(Vec3::new(0.1, 0.5, 0.45), 0.03, Vec3::new(x, 0.58, 0.0), palette::POST));
+        parts.push(block(Vec3::new(0.1, 0.5, 0.56), 0.03, Vec3::new(x, 0.58, 0.0), palette::POST));
     }
     parts
 }
