@@ -1,0 +1,112 @@
+//! How far a correct second-order solver may be from the exact motion, with reasons.
+//!
+//! For a step h (angular frequency near 1), the largest component A of the motion (at least 1) and time t:
+//!
+//! ```text
+//! state, amplitude, energy:  A h^2 (1 + t/12) e^(lambda t)          frequency:  h^2 (1/12 + 4 A/T)
+//! ```
+//!
+//! The leapfrog runs ahead by `h^2/24` of the phase per unit of time, so that a component A is off by `A h^2 t/24`; the return
+//! mapping misses each extreme of the elongation by up to `h^2 A/8`, and what it missed is forgotten with the next slip. The sum with a
+//! factor of two is the bracket. Errors grow along the reference motion with its own rate lambda, which the caller knows: zero on a stable
+//! motion, `ln|mu|/T` on an unstable orbit of multiplier mu and period T, the largest Lyapunov exponent on a chaotic one.
+
+use super::CompareError;
+use serde::Serialize;
+
+/// What kind of motion the reference is, which decides what can agree beyond the horizon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// Errors stay in proportion to time: amplitude and frequency agree as well as states do.
+    Regular,
+    /// Trajectories part: beyond the horizon only averages can agree, to within their own statistical error.
+    Chaotic,
+}
+
+/// What the comparison has to know beforehand.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Expectation {
+    /// Time up to which states are compared.
+    pub horizon: f64,
+    /// Time step of the tested solver.
+    pub step: f64,
+    /// Growth rate lambda of small differences along the reference motion.
+    pub growth_rate: f64,
+    /// Unit roundoff of the tested solver's numbers: 2^-53 for f64, 2^-24 for f32.
+    pub unit_roundoff: f64,
+    pub motion: Motion,
+    /// Largest lateral displacement and rotation (rad) of a carriage off its rail, where the tested solver has joints.
+    pub joint_drift: Option<[f64; 2]>,
+}
+
+impl Expectation {
+    /// Growth rate beside the limit cycle of the nominal rig at xi1 = -0.06: half-period multipliers 0.977968 +- 0.248221 i, so
+    /// ln 1.00898 over half a period of 3.17496.
+    pub const NOMINAL_GROWTH_RATE: f64 = 0.002816;
+
+    /// A regular motion of the nominal rig, computed in f64 without joints to look at.
+    #[must_use]
+    pub fn regular(horizon: f64, step: f64) -> Self {
+        Self {
+            horizon,
+            step,
+            growth_rate: Self::NOMINAL_GROWTH_RATE,
+            unit_roundoff: f64::EPSILON / 2.0,
+            motion: Motion::Regular,
+            joint_drift: None,
+        }
+    }
+
+    pub(super) fn validated(self) -> Result<Self, CompareError> {
+        let positive = "finite and greater than 0";
+        let not_negative = "finite and not negative";
+        for (field, found, strict) in [
+            ("horizon", self.horizon, true),
+            ("step", self.step, true),
+            ("growth_rate", self.growth_rate, false),
+            ("unit_roundoff", self.unit_roundoff, false),
+        ] {
+            let allowed = if strict { positive } else { not_negative };
+            if !(found.is_finite() && found >= 0.0 && (found > 0.0 || !strict)) {
+                return Err(CompareError::OutOfRange { field, found, allowed });
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// What follows from an [`Expectation`] for motions whose largest component is `scale`, recorded up to `t_end`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Tolerances {
+    pub state: f64,
+    pub amplitude: f64,
+    pub frequency: f64,
+    pub energy: f64,
+    pub lateral_drift: f64,
+    pub rotation_drift: f64,
+}
+
+impl Tolerances {
+    #[must_use]
+    pub fn of(expected: &Expectation, scale: f64, t_end: f64) -> Self {
+        let Expectation { horizon, step, growth_rate, unit_roundoff, .. } = *expected;
+        let scale = scale.max(1.0);
+        let second_order = |t: f64| scale * step * step * (1.0 + t / 12.0) * (growth_rate * t).exp();
+        let rounding = |t: f64| scale * unit_roundoff * rounding_growth(t, step) * (growth_rate * t).exp();
+        Self {
+            state: second_order(horizon) + rounding(horizon),
+            amplitude: second_order(t_end) + rounding(t_end),
+            frequency: step * step * (1.0 / 12.0 + 4.0 * scale / t_end) + rounding(t_end) * 4.0 / t_end,
+            energy: second_order(t_end) + rounding(t_end),
+            lateral_drift: 1e-3,
+            rotation_drift: 1e-3,
+        }
+    }
+}
+
+/// Rounding of positions (once a step, of random sign), and of the step itself (once and for all, so that time runs wrong by one
+/// unit roundoff).
+fn rounding_growth(t: f64, step: f64) -> f64 {
+    (t / step).sqrt() + t
+}
