@@ -4,6 +4,7 @@
 #![warn(missing_debug_implementations)]
 
 pub mod dynamics;
+pub mod exact;
 pub mod model;
 #[cfg(feature = "render")]
 pub mod render;
