@@ -4,6 +4,7 @@ mod cpu;
 mod draw_list;
 mod error;
 mod geometry;
+mod gpu;
 mod look;
 mod open;
 mod overlay;

@@ -1,7 +1,11 @@
 //! Which back end draws.
 
 use super::cpu::CpuRenderer;
+use super::gpu::GpuRenderer;
 use super::{RenderError, Renderer};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 /// What to draw with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -21,6 +25,9 @@ pub enum RendererChoice {
     Software,
 }
 
+/// A driver that has not opened a device by then hangs.
+const PATIENCE: Duration = Duration::from_secs(30);
+
 /// Opens a back end; [`Renderer::info`] tells which and why.
 ///
 /// # Errors
@@ -28,7 +35,32 @@ pub enum RendererChoice {
 pub fn open(choice: RendererChoice) -> Result<Box<dyn Renderer>, RenderError> {
     match choice {
         RendererChoice::Cpu => Ok(Box::new(CpuRenderer::new("asked for"))),
-        RendererChoice::Auto => Ok(Box::new(CpuRenderer::new("no graphics adapter"))),
-        _ => Err(RenderError::NoAdapter { wanted: format!("{choice:?}"), reason: "not built in".into() }),
+        RendererChoice::Auto => open_gpu(choice).or_else(|error| Ok(Box::new(CpuRenderer::new(why_not(&error))))),
+        _ => open_gpu(choice),
+    }
+}
+
+/// Why the built-in rasteriser stands in for a graphics card.
+fn why_not(error: &RenderError) -> String {
+    match error {
+        RenderError::NoAdapter { wanted, reason } => format!("no {wanted} adapter: {reason}"),
+        other => other.to_string(),
+    }
+}
+
+/// Opens the device on a thread of its own, which is left behind if the driver hangs.
+fn open_gpu(choice: RendererChoice) -> Result<Box<dyn Renderer>, RenderError> {
+    let (sender, receiver) = mpsc::channel();
+    let fail = |reason: String| RenderError::Device { doing: "opening the device", reason };
+    let opening = thread::Builder::new().name("graphics device".into());
+    let work = move || {
+        // Nobody listens any more only after a timeout, which has been reported.
+        let _ = sender.send(GpuRenderer::open(choice));
+    };
+    opening.spawn(work).map_err(|error| fail(error.to_string()))?;
+    match receiver.recv_timeout(PATIENCE) {
+        Ok(opened) => Ok(Box::new(opened?)),
+        Err(RecvTimeoutError::Timeout) => Err(fail(format!("no answer within {} s", PATIENCE.as_secs()))),
+        Err(RecvTimeoutError::Disconnected) => Err(fail("the driver broke down".into())),
     }
 }
