@@ -1,0 +1,1 @@
+//! Films of a fake renderer whose frames say which one they are.
