@@ -10,11 +10,8 @@
 //! ```
 
 use super::{Column, ColumnData, Table};
-use ::csv::{ReaderBuilder, StringRecord, WriterBuilder};
+use ::csv::{Error, ErrorKind, ReaderBuilder, StringRecord, WriterBuilder};
 use std::io::{self, Write};
-
-/// A table and the checksum stored with it, or why there is none.
-pub(super) type Checked = Result<(Table, String), String>;
 
 pub(super) fn write(table: &Table, writer: &mut dyn Write) -> io::Result<()> {
     for (key, value) in &table.metadata {
@@ -22,20 +19,31 @@ pub(super) fn write(table: &Table, writer: &mut dyn Write) -> io::Result<()> {
     }
     let types: Vec<_> = table.columns.iter().map(|column| column.values.type_name()).collect();
     writeln!(writer, "# types: {}", types.join(","))?;
-    {
-        // With a comment character the writer quotes texts that begin with it.
-        let mut rows = WriterBuilder::new().comment(Some(b'#')).from_writer(&mut *writer);
-        rows.write_record(table.columns.iter().map(heading))?;
-        for row in 0..table.rows() {
-            rows.write_record(table.columns.iter().map(|column| field(&column.values, row)))?;
-        }
-        rows.flush()?;
-    }
+    write_rows(table, writer).map_err(io_error)?;
     writeln!(writer, "# sha256: {}", table.sha256())?;
     writeln!(writer, "# end: {} rows", table.rows())
 }
 
-pub(super) fn read(bytes: &[u8]) -> Checked {
+fn write_rows(table: &Table, writer: &mut dyn Write) -> Result<(), Error> {
+    // With a comment character the writer quotes texts that begin with it.
+    let mut rows = WriterBuilder::new().comment(Some(b'#')).from_writer(writer);
+    rows.write_record(table.columns.iter().map(heading))?;
+    for row in 0..table.rows() {
+        rows.write_record(table.columns.iter().map(|column| field(&column.values, row)))?;
+    }
+    Ok(rows.flush()?)
+}
+
+/// A full disk has to stay recognisable as one.
+fn io_error(error: Error) -> io::Error {
+    let message = error.to_string();
+    match error.into_kind() {
+        ErrorKind::Io(error) => error,
+        _ => io::Error::other(message),
+    }
+}
+
+pub(super) fn read(bytes: &[u8]) -> Result<Table, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())?;
     let (content, rows, sum) = split_end(text)?;
     let (metadata, types, body) = split_head(content)?;
@@ -53,7 +61,7 @@ pub(super) fn read(bytes: &[u8]) -> Checked {
     if table.rows() != rows {
         return Err(format!("it has {} of {rows} rows", table.rows()));
     }
-    Ok((table, sum.to_owned()))
+    if table.sha256() == sum { Ok(table) } else { Err("its content does not match its checksum".to_owned()) }
 }
 
 /// Splits off the last two lines; without them the file is not whole.

@@ -1,8 +1,11 @@
-//! A table as one Parquet row group: numbers as DOUBLE, text as UTF-8 BYTE_ARRAY, Snappy pages. Metadata, units (`unit of NAME`) and the
-//! checksum are key-value metadata of the file.
+//! A table as one Parquet row group: numbers as DOUBLE, text as UTF-8 BYTE_ARRAY, Snappy pages. Metadata and units
+//! (`unit of NAME`) are key-value metadata of the file.
+//!
+//! So is a SHA-256 of the whole file with zeros in the place of the sum itself. It is checked before anything is decoded: pages have
+//! no sums of their own, and the Parquet reader panics on some damaged files.
 
-use super::csv::Checked;
 use super::{Column, ColumnData, RESERVED, Table};
+use crate::store::sha256_hex;
 use ::parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use ::parquet::column::reader::ColumnReader;
 use ::parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
@@ -14,23 +17,32 @@ use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use ::parquet::schema::types::{ColumnPath, Type, TypePtr};
 use std::fs::File;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::sync::Arc;
 
 const UNIT: &str = "unit of ";
 const SUM: &str = RESERVED[2];
+/// Stands before the sum in the file, to find it there.
+const SUM_MARK: &str = "of the file with zeros here: ";
+const NO_SUM: [u8; 64] = [b'0'; 64];
 
 pub(super) fn write(table: &Table, writer: &mut (dyn Write + Send)) -> io::Result<()> {
-    write_parquet(table, writer).map_err(|error| match error {
-        // A full disk has to stay recognisable as one.
-        ParquetError::External(inner) => match inner.downcast::<io::Error>() {
-            Ok(error) => *error,
-            Err(other) => io::Error::other(other),
-        },
-        other => io::Error::other(other),
-    })
+    let mut file = Vec::new();
+    write_parquet(table, &mut file).map_err(io::Error::other)?;
+    let place = sum_place(&file).ok_or_else(|| io::Error::other("the checksum has no place in the Parquet file"))?;
+    let sum = sha256_hex(&file);
+    file[place].copy_from_slice(sum.as_bytes());
+    writer.write_all(&file)
 }
 
-fn write_parquet(table: &Table, writer: &mut (dyn Write + Send)) -> Result<()> {
+/// Where the sum stands: after the last mark, as it is the last entry of the metadata at the end of the file.
+fn sum_place(file: &[u8]) -> Option<Range<usize>> {
+    let mark = file.windows(SUM_MARK.len()).rposition(|window| window == SUM_MARK.as_bytes())?;
+    let place = mark + SUM_MARK.len()..mark + SUM_MARK.len() + NO_SUM.len();
+    (place.end <= file.len()).then_some(place)
+}
+
+fn write_parquet(table: &Table, writer: &mut Vec<u8>) -> Result<()> {
     let fields = table.columns.iter().map(field).collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("table").with_fields(fields).build()?);
     let mut file = SerializedFileWriter::new(writer, schema, Arc::new(properties(table)))?;
@@ -62,7 +74,7 @@ fn field(column: &Column) -> Result<TypePtr> {
 
 fn properties(table: &Table) -> WriterProperties {
     let units = table.columns.iter().map(|column| (format!("{UNIT}{}", column.name), column.unit.clone()));
-    let sum = (SUM.to_owned(), table.sha256());
+    let sum = (SUM.to_owned(), format!("{SUM_MARK}{}", String::from_utf8_lossy(&NO_SUM)));
     let entries = table.metadata.iter().cloned().chain(units).chain([sum]);
     let mut builder = WriterProperties::builder()
         .set_created_by(format!("stickslip {}", env!("CARGO_PKG_VERSION")))
@@ -91,25 +103,28 @@ fn write_column(writer: &mut SerializedColumnWriter<'_>, values: &ColumnData) ->
     Ok(())
 }
 
-pub(super) fn read(file: File) -> Checked {
-    read_parquet(file).map_err(|error| format!("it is truncated or changed ({error})"))
+pub(super) fn read(mut bytes: Vec<u8>, file: File) -> std::result::Result<Table, String> {
+    let place = sum_place(&bytes).ok_or("it is truncated or not one of this program: it has no checksum")?;
+    let sum = bytes[place.clone()].to_vec();
+    bytes[place].copy_from_slice(&NO_SUM);
+    if sha256_hex(&bytes).as_bytes() != sum {
+        return Err("its content does not match its checksum".to_owned());
+    }
+    decode(file).map_err(|error| error.to_string())
 }
 
-fn read_parquet(file: File) -> Result<(Table, String)> {
+fn decode(file: File) -> Result<Table> {
     let reader = SerializedFileReader::new(file)?;
     let file = reader.metadata().file_metadata();
-    let (mut metadata, mut units, mut sum) = (Vec::new(), Vec::new(), None);
+    let (mut metadata, mut units) = (Vec::new(), Vec::new());
     for KeyValue { key, value } in file.key_value_metadata().into_iter().flatten() {
         let value = value.clone().unwrap_or_default();
-        if key == SUM {
-            sum = Some(value);
-        } else if let Some(name) = key.strip_prefix(UNIT) {
+        if let Some(name) = key.strip_prefix(UNIT) {
             units.push((name.to_owned(), value));
-        } else {
+        } else if key != SUM {
             metadata.push((key.clone(), value));
         }
     }
-    let sum = sum.ok_or_else(|| damaged("it has no checksum"))?;
     if reader.num_row_groups() != 1 {
         return Err(damaged("it has not one row group"));
     }
@@ -122,7 +137,7 @@ fn read_parquet(file: File) -> Result<(Table, String)> {
         let optional = descriptor.max_def_level() > 0;
         columns.push(Column { name, unit, values: read_column(&*group, index, rows, optional)? });
     }
-    Ok((Table { metadata, columns }, sum))
+    Ok(Table { metadata, columns })
 }
 
 fn read_column(group: &dyn RowGroupReader, index: usize, rows: usize, optional: bool) -> Result<ColumnData> {

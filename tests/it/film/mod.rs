@@ -1,0 +1,7 @@
+//! Films of a fake renderer whose frames say which one they are.
+
+mod fake;
+mod mp4;
+mod resume;
+mod sequence;
+mod video;

@@ -1,0 +1,6 @@
+//! Atomic files, output directories and tables.
+
+mod atomic;
+mod output_dir;
+#[cfg(feature = "tables")]
+mod tables;
