@@ -43,7 +43,7 @@ pub fn man() -> anyhow::Result<Verdict> {
     clap_mangen::Man::new(Cli::command()).render(&mut text)?;
     for command in Cli::command().get_subcommands() {
         let name = format!("stickslip-{}", command.get_name());
-        clap_mangen::Man::new(command.clone().name(name.clone()).bin_name(name)).render(&mut text)?;
+        clap_mangen::Man::new(command.clone().display_name(name.clone()).bin_name(name)).render(&mut text)?;
     }
     print(String::from_utf8(text)?.trim_end())?;
     Ok(Verdict::Done)
