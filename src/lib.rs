@@ -7,6 +7,7 @@ pub mod compare;
 pub mod dynamics;
 #[cfg(feature = "engine")]
 pub mod engine;
+pub mod exact;
 pub mod model;
 #[cfg(feature = "render")]
 pub mod render;

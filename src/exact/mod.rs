@@ -1,0 +1,41 @@
+//! The exact flow. In each contact state the chain is linear with constant coefficients,
+//!
+//! ```text
+//! y' = A y  in a stick or slip phase,   y continuous,   A changes when a slider reaches |f| = 1 or stops sliding,
+//! ```
+//!
+//! so the motion of a phase is known in closed form and only the switching times need a root search. That search is
+//! certified: a bound on the curvature of the event function proves that no crossing is missed (`crossing`).
+//!
+//! - [`TwoMassFlow`]: the paper's rig in modal coordinates (`modal`, `modal_phase`, `scan`, `walk`), about 0.1 us per event.
+//! - [`ChainFlow`]: any chain, matrix exponential by series (`pattern`, `chain_walk`).
+//! - [`ExactTrajectory`]: the motion of either at any time, and its energy ledger (`piece`, `gauss`).
+//!
+//! Rules for events. A slip phase begins when |f| = 1 is exceeded, a stick phase when the sliding velocity changes its sign.
+//! A force that touches |f| = 1 to rounding and turns back is [`crate::dynamics::EventKind::Grazing`], and nothing changes. A
+//! sliding velocity that touches zero and goes on is no event. An event at the very end of the time asked for counts, and the
+//! contact states given for the time of an event are those after it. Simultaneous events: `chain_walk`.
+
+mod bound;
+mod chain_flow;
+mod chain_walk;
+mod clock;
+mod crossing;
+mod error;
+mod gauss;
+mod half_period;
+mod modal;
+mod modal_phase;
+mod pattern;
+mod piece;
+mod scan;
+mod series;
+mod trajectory;
+mod two_mass;
+mod walk;
+
+pub use bound::DEFAULT_AMPLITUDE_BOUND;
+pub use chain_flow::ChainFlow;
+pub use error::ExactError;
+pub use trajectory::{ExactTrajectory, Instant};
+pub use two_mass::{Arrival, Representation, TwoMassFlow};

@@ -1,0 +1,303 @@
+//! Complex modal coordinates of the two-mass rig in one contact state.
+//!
+//! With two underdamped modes, eigenvalues `l_j` (Im > 0) and equilibrium `z*`, the state `z = (x1, x2, v1, v2)` is
+//!
+//! ```text
+//! z(t) - z* = Re( c1 e^(l1 t) w1 + c2 e^(l2 t) w2 ),     w_j = (1, r_j, l_j, l_j r_j) / n_j,
+//! r_j = -(d2 l_j - k) / (l_j^2 + d1 l_j + 1 + k)
+//! ```
+//!
+//! The scale `n_j` is chosen so that the event function is the plain sum `q = Re c1 + Re c2`: `n_j = 1` while sticking
+//! (`q = x1 - x1*`), `n_j = l_j` while slipping (`q = v1`). Coordinates are stored as four reals `(Re c1, Im c1, Re c2, Im c2)`
+//! and multiplied by exponentials stored as `(Re, -Im, Re, -Im)`, so that `q` after a time h is the dot product with `e^(l h)`.
+//!
+//! Not every parameter set has such coordinates. Overdamped and nearly repeated eigenvalues, and modes that mass 1 does
+//! not see, have `Modes::new` return `None`; the chain's series then takes over.
+
+use super::series::{ORDER, Series};
+use nalgebra::{Complex, Matrix4, Vector4};
+
+/// Cells in a block of the table.
+pub(super) const CELLS: usize = 64;
+/// Fine steps in a cell.
+const FINE: usize = 16;
+/// Highest power of the local polynomial around a fine node: |l| dt <= 1/128 there, the rest is below 1e-18.
+const LOCAL: usize = 6;
+/// Width of a cell times the fastest rate: small enough that few cells near a guard are doubtful, large enough that a phase
+/// has about ten.
+pub(super) const CELL_ANGLE: f64 = 0.25;
+/// Largest condition number of the eigenvector matrix (unit columns) for which modal coordinates lose at most three digits.
+const LARGEST_CONDITION: f64 = 1e3;
+/// Smallest Im l / |l| taken as underdamped.
+const SMALLEST_SINE: f64 = 1e-2;
+
+pub(super) type Modal = [f64; 4];
+
+/// Which quantity is the plain sum of the coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scaling {
+    Position,
+    Velocity,
+}
+
+/// Stiffness and damping of one contact state: `[[stiffness1, -kappa], [-kappa, stiffness2]]`, `[[d1, d2], [d2, d1]]`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coefficients {
+    pub(super) stiffness1: f64,
+    pub(super) stiffness2: f64,
+    pub(super) kappa: f64,
+    pub(super) d1: f64,
+    pub(super) d2: f64,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Modes {
+    eigenvalues: [Complex<f64>; 2],
+    pub(super) to_physical: Matrix4<f64>,
+    pub(super) to_modal: Matrix4<f64>,
+    /// Width of a cell.
+    pub(super) cell: f64,
+    /// `M2 width^2/8` of a block is the dot product with `(|c1|, |c2|)`; likewise `M3 width/3`, and the largest |x - x*|.
+    pub(super) bulge_weights: [f64; 2],
+    pub(super) jerk_weights: [f64; 2],
+    pub(super) amplitude_weights: [f64; 2],
+    /// Exponentials over 0, 1, ..., `CELLS` cells.
+    pub(super) coarse: Vec<Modal>,
+    /// Exponentials over 0, 1, ..., `FINE` fine steps.
+    fine: [Modal; FINE + 1],
+    /// `l^k / k!`.
+    powers: [Modal; LOCAL + 1],
+}
+
+impl Coefficients {
+    pub(super) fn characteristic(&self, l: Complex<f64>) -> (Complex<f64>, Complex<f64>) {
+        let first = l * (l + self.d1) + self.stiffness1;
+        let second = l * (l + self.d1) + self.stiffness2;
+        let coupling = l * self.d2 - self.kappa;
+        let value = first * second - coupling * coupling;
+        let slope = (l * 2.0 + self.d1) * (first + second) - coupling * (2.0 * self.d2);
+        (value, slope)
+    }
+
+    /// The two eigenvalues with positive imaginary part, slow one first; `None` if a mode is not underdamped.
+    fn eigenvalues(&self) -> Option<[Complex<f64>; 2]> {
+        let Self { stiffness1, stiffness2, kappa, d1, d2 } = *self;
+        #[rustfmt::skip]
+        let system = Matrix4::new(
+            0.0, 0.0, 1.0, 0.0,
+            0.0, 0.0, 0.0, 1.0,
+            -stiffness1, kappa, -d1, -d2,
+            kappa, -stiffness2, -d2, -d1,
+        );
+        let all = nalgebra::linalg::Schur::try_new(system, f64::EPSILON, 10_000)?.complex_eigenvalues();
+        let mut upper = all.iter().filter(|l| l.im > SMALLEST_SINE * l.norm()).map(|&l| self.polished(l));
+        let (first, second) = (upper.next()?, upper.next()?);
+        Some(if first.im <= second.im { [first, second] } else { [second, first] })
+    }
+
+    /// Two Newton steps on the characteristic polynomial: the QR iteration leaves a few roundings, and an error in an
+    /// eigenvalue grows with time.
+    fn polished(&self, start: Complex<f64>) -> Complex<f64> {
+        (0..2).fold(start, |l, _| {
+            let (value, slope) = self.characteristic(l);
+            let step = value / slope;
+            if step.norm() < 1e-8 * l.norm() { l - step } else { l }
+        })
+    }
+}
+
+impl Modes {
+    pub(super) fn new(coefficients: &Coefficients, scaling: Scaling, cell: f64) -> Option<Self> {
+        let eigenvalues = coefficients.eigenvalues()?;
+        let vectors = eigenvalues.map(|l| {
+            let ratio =
+                -(l * coefficients.d2 - coefficients.kappa) / (l * (l + coefficients.d1) + coefficients.stiffness2);
+            let scale = match scaling {
+                Scaling::Position => Complex::new(1.0, 0.0),
+                Scaling::Velocity => l,
+            };
+            [Complex::new(1.0, 0.0) / scale, ratio / scale, l / scale, l * ratio / scale]
+        });
+        let to_physical = Matrix4::from_fn(|row, column| {
+            let entry = vectors[column / 2][row];
+            if column % 2 == 0 { entry.re } else { -entry.im }
+        });
+        let to_modal = well_conditioned_inverse(&to_physical)?;
+        let block = cell * CELLS as f64;
+        let rates = eigenvalues.map(|l| l.norm());
+        let growth = eigenvalues.map(|l| (l.re.max(0.0) * block).exp());
+        let position = [0, 1].map(|j: usize| vectors[j][0].norm().max(vectors[j][1].norm()));
+        Some(Self {
+            eigenvalues,
+            to_physical,
+            to_modal,
+            cell,
+            bulge_weights: [0, 1].map(|j| rates[j].powi(2) * growth[j] * cell * cell / 8.0),
+            jerk_weights: [0, 1].map(|j| rates[j].powi(3) * growth[j] * cell / 3.0),
+            amplitude_weights: [0, 1].map(|j| position[j] * growth[j]),
+            coarse: (0..=CELLS).map(|n| exponential(&eigenvalues, n as f64 * cell)).collect(),
+            fine: std::array::from_fn(|n| exponential(&eigenvalues, n as f64 * cell / FINE as f64)),
+            powers: std::array::from_fn(|k| scaled_power(&eigenvalues, k)),
+        })
+    }
+
+    /// Width of a cell that suits these coefficients.
+    pub(super) fn suitable_cell(coefficients: &[&Coefficients]) -> Option<f64> {
+        let mut fastest = 0.0_f64;
+        for set in coefficients {
+            fastest = set.eigenvalues()?.iter().map(|l| l.norm()).fold(fastest, f64::max);
+        }
+        Some(CELL_ANGLE / fastest)
+    }
+
+    /// Coordinates after a time of any length.
+    pub(super) fn after(&self, c: &Modal, time: f64) -> Modal {
+        rotated(c, &exponential(&self.eigenvalues, time))
+    }
+
+    /// First derivative of the event function.
+    #[inline]
+    pub(super) fn slope(&self, c: &Modal) -> f64 {
+        dot(c, &self.powers[1])
+    }
+
+    /// Second derivative of the event function.
+    #[inline]
+    pub(super) fn curvature(&self, c: &Modal) -> f64 {
+        2.0 * dot(c, &self.powers[2])
+    }
+
+    /// Root of `q = level` in the cell that starts at `c`, given an estimate `guess` in `[0, cell]`: time and coordinates there.
+    /// `None` if Newton's iteration does not settle in the cell. The caller has proved that there is one root.
+    ///
+    /// The estimate is moved to the nearest fine node; from there Halley steps on a polynomial of degree `LOCAL` are exact to
+    /// rounding, and the first of them needs three dot products only.
+    #[inline]
+    pub(super) fn root(&self, c: &Modal, level: f64, guess: f64) -> Option<(f64, Modal)> {
+        let fine_step = self.cell / FINE as f64;
+        let mut time = guess;
+        for _ in 0..3 {
+            let node = (time / fine_step).round().clamp(0.0, FINE as f64);
+            let at_node = rotated(c, &self.fine[node as usize]);
+            let mut q = [0.0; LOCAL + 1];
+            for (q, power) in q.iter_mut().zip(&self.powers) {
+                *q = dot(&at_node, power);
+            }
+            q[0] -= level;
+            if let Some(delta) = local_root(&q, 0.75 * fine_step) {
+                return Some((node * fine_step + delta, rotated(&at_node, &self.local_exponential(delta))));
+            }
+            // The estimate was off by more than a fine step: move on from a Newton step.
+            time = node * fine_step - q[0] / q[1];
+            if !(0.0..=self.cell).contains(&time) {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// `e^(l t)` for |t| of at most a fine step.
+    #[inline]
+    fn local_exponential(&self, t: f64) -> Modal {
+        let mut sum = self.powers[LOCAL];
+        for power in self.powers[..LOCAL].iter().rev() {
+            for (sum, power) in sum.iter_mut().zip(power) {
+                *sum = *sum * t + power;
+            }
+        }
+        sum
+    }
+
+    /// Taylor coefficients of the event function over a cell, from `c`.
+    pub(super) fn coefficients(&self, c: &Modal) -> [f64; ORDER + 1] {
+        let mut terms = [Complex::new(c[0], c[1]), Complex::new(c[2], c[3])];
+        std::array::from_fn(|k| {
+            if k > 0 {
+                for (term, l) in terms.iter_mut().zip(&self.eigenvalues) {
+                    *term *= l / k as f64;
+                }
+            }
+            terms[0].re + terms[1].re
+        })
+    }
+
+    /// Taylor coefficients of `x1 - x1*` or `x2 - x2*` (`index` 0 or 1) over a cell, from `c`.
+    pub(super) fn position_series(&self, c: &Modal, index: usize, sign: f64, offset: f64, scale: f64) -> Series {
+        let row = self.to_physical.row(index);
+        // As an event function: the coordinates multiplied by the vector's entry.
+        let weighted: Modal = std::array::from_fn(|i| match i % 2 {
+            0 => row[i] * c[i] + row[i + 1] * c[i + 1],
+            _ => row[i - 1] * c[i] - row[i] * c[i - 1],
+        });
+        let mut coefficients = self.coefficients(&weighted).map(|q| sign * q);
+        coefficients[0] += offset;
+        Series::new(coefficients, self.cell, scale)
+    }
+}
+
+/// Smallest root of a polynomial close to 0, at most `reach` away, by Halley's method.
+#[inline]
+fn local_root(q: &[f64; LOCAL + 1], reach: f64) -> Option<f64> {
+    let halley = |value: f64, slope: f64, half_curvature: f64| value * slope / (slope * slope - value * half_curvature);
+    let mut delta = -halley(q[0], q[1], q[2]);
+    for _ in 0..6 {
+        if delta.is_nan() || delta.abs() > reach {
+            return None;
+        }
+        let (mut value, mut slope) = (0.0, 0.0);
+        for &coefficient in q.iter().rev() {
+            slope = slope * delta + value;
+            value = value * delta + coefficient;
+        }
+        let step = halley(value, slope, q[2] + 3.0 * q[3] * delta);
+        delta -= step;
+        // The next step would be the cube of this one, relative to the cell.
+        if step.abs() < 1e-5 * reach {
+            return Some(delta);
+        }
+    }
+    None
+}
+
+#[inline]
+pub(super) fn dot(c: &Modal, e: &Modal) -> f64 {
+    (c[0] * e[0] + c[1] * e[1]) + (c[2] * e[2] + c[3] * e[3])
+}
+
+/// Both complex products `c_j e_j`.
+#[inline]
+pub(super) fn rotated(c: &Modal, e: &Modal) -> Modal {
+    [c[0] * e[0] + c[1] * e[1], c[1] * e[0] - c[0] * e[1], c[2] * e[2] + c[3] * e[3], c[3] * e[2] - c[2] * e[3]]
+}
+
+/// `(|c1|, |c2|)`.
+#[inline]
+pub(super) fn magnitudes(c: &Modal) -> [f64; 2] {
+    [(c[0] * c[0] + c[1] * c[1]).sqrt(), (c[2] * c[2] + c[3] * c[3]).sqrt()]
+}
+
+fn exponential(eigenvalues: &[Complex<f64>; 2], time: f64) -> Modal {
+    let [first, second] = eigenvalues.map(|l| (l * time).exp());
+    [first.re, -first.im, second.re, -second.im]
+}
+
+fn scaled_power(eigenvalues: &[Complex<f64>; 2], exponent: usize) -> Modal {
+    let power = |l: Complex<f64>| (1..=exponent).fold(Complex::new(1.0, 0.0), |power, k| power * l / k as f64);
+    let [first, second] = eigenvalues.map(power);
+    [first.re, -first.im, second.re, -second.im]
+}
+
+fn well_conditioned_inverse(matrix: &Matrix4<f64>) -> Option<Matrix4<f64>> {
+    let lengths = Vector4::from_fn(|column, _| matrix.column(column).norm());
+    let unit = Matrix4::from_fn(|row, column| matrix[(row, column)] / lengths[column]);
+    if !unit.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let singular = unit.singular_values();
+    if singular.max() > LARGEST_CONDITION * singular.min() {
+        return None;
+    }
+    let inverse = matrix.try_inverse()?;
+    // One Newton step on the inverse, to rounding.
+    Some(inverse * (Matrix4::identity() * 2.0 - matrix * inverse))
+}
