@@ -51,15 +51,45 @@ impl Cycles {
         }
     }
 
-    /// Largest, smallest and mean value of the maxima; `None` if there are none.
+    /// Mean value of the maxima; `None` if there are none.
     #[must_use]
-    pub fn envelope(&self) -> Option<[f64; 3]> {
-        if self.maxima.is_empty() {
-            return None;
+    pub fn mean_maximum(&self) -> Option<f64> {
+        let sum: f64 = self.maxima.iter().map(|maximum| maximum.value).sum();
+        (!self.maxima.is_empty()).then(|| sum / self.maxima.len() as f64)
+    }
+
+    /// Without what lies within one sample of the ends of the record, where the other motion may just have no partner for it.
+    #[must_use]
+    pub fn inner(&self, record: &Trajectory) -> Self {
+        let times: Vec<f64> = record.samples.iter().map(|sample| sample.time).collect();
+        let [_, second, .., last_but_one, _] = times.as_slice() else { return Self::default() };
+        let inside = |time: f64| time >= *second && time <= *last_but_one;
+        Self {
+            maxima: self.maxima.iter().copied().filter(|maximum| inside(maximum.time)).collect(),
+            upward_zeros: self.upward_zeros.iter().copied().filter(|&time| inside(time)).collect(),
         }
-        let values = || self.maxima.iter().map(|maximum| maximum.value);
-        let mean = values().sum::<f64>() / self.maxima.len() as f64;
-        Some([values().fold(f64::NEG_INFINITY, f64::max), values().fold(f64::INFINITY, f64::min), mean])
+    }
+
+    /// Largest difference between a maximum here and the one nearest in time of `other`; `None` if either has none.
+    #[must_use]
+    pub fn amplitude_error(&self, other: &Self) -> Option<f64> {
+        let times: Vec<f64> = other.maxima.iter().map(|maximum| maximum.time).collect();
+        let errors: Option<Vec<f64>> = self
+            .maxima
+            .iter()
+            .map(|maximum| Some((maximum.value - other.maxima[nearest(&times, maximum.time)?].value).abs()))
+            .collect();
+        errors?.into_iter().reduce(f64::max)
+    }
+
+    /// Difference of the angular frequencies between the first and the last upward zero here and those nearest in time of `other`;
+    /// `None` if either has fewer than two.
+    #[must_use]
+    pub fn frequency_error(&self, other: &Self) -> Option<f64> {
+        let [first, .., last] = self.upward_zeros.as_slice() else { return None };
+        let (i, j) = (nearest(&other.upward_zeros, *first)?, nearest(&other.upward_zeros, *last)?);
+        let theirs = Self { upward_zeros: other.upward_zeros[i..=j].to_vec(), ..Self::default() };
+        Some((self.angular_frequency()? - theirs.angular_frequency()?).abs())
     }
 
     /// Standard error of the mean of the maxima by the spread of the means of ten consecutive batches, which allows for
@@ -76,6 +106,12 @@ impl Cycles {
         let frequencies: Vec<f64> = self.upward_zeros.windows(2).map(|pair| TAU / (pair[1] - pair[0])).collect();
         standard_error(&frequencies)
     }
+}
+
+/// Index of the entry nearest to `time`.
+fn nearest(times: &[f64], time: f64) -> Option<usize> {
+    let distance = |i: &usize| (times[*i] - time).abs();
+    (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
 fn standard_error(values: &[f64]) -> Option<f64> {
@@ -162,8 +198,7 @@ mod tests {
         let cycles = Cycles::of(&sine(amplitude, w, dt, 100.0), 0);
         // Interpolation error of the cubic: (w dt)^4/384 of the amplitude.
         let tolerance = amplitude * (w * dt).powi(4) / 384.0;
-        let [largest, smallest, mean] = cycles.envelope().unwrap();
-        for value in [largest, smallest, mean] {
+        for value in cycles.maxima.iter().map(|maximum| maximum.value).chain(cycles.mean_maximum()) {
             assert!((value - amplitude).abs() <= tolerance, "{value}");
         }
         // The same error at both ends of 14 periods, as a time: divided by the speed at a zero.
@@ -173,9 +208,21 @@ mod tests {
     }
 
     #[test]
+    fn two_sines_differ_by_their_amplitudes_and_frequencies() {
+        let motion = |amplitude, w| sine(amplitude, w, 0.05, 100.0);
+        let (first, second) = (motion(1.0, 1.0), motion(1.01, 1.001));
+        let (a, b) = (Cycles::of(&first, 0).inner(&first), Cycles::of(&second, 0));
+        // Interpolation, dt^4/384 = 2e-8.
+        assert!((a.amplitude_error(&b).unwrap() - 0.01).abs() < 1e-7);
+        assert!((a.frequency_error(&b).unwrap() - 0.001).abs() < 1e-7);
+        assert_eq!(a.amplitude_error(&Cycles::default()), None);
+        assert_eq!(Cycles::default().frequency_error(&b), None);
+    }
+
+    #[test]
     fn a_motion_without_cycles_has_no_amplitude() {
         let cycles = Cycles::of(&sine(1.0, 1.0, 0.1, 1.0), 0);
-        assert!(cycles.envelope().is_none() && cycles.angular_frequency().is_none());
+        assert!(cycles.mean_maximum().is_none() && cycles.angular_frequency().is_none());
         assert_eq!(Cycles::of(&sine(1.0, 1.0, 0.1, 10.0), 7), Cycles::default());
     }
 }

@@ -34,13 +34,14 @@ pub fn common_samples<'a>(
     Ok(pairs)
 }
 
-/// Largest difference of any component of the state over all samples up to `horizon`.
+/// Largest difference of any component of the state over all common samples up to `horizon`; fewer than that if a motion diverged.
 ///
 /// # Errors
-/// As [`common_samples`], and [`CompareError::Horizon`] if the horizon is not positive or lies beyond the last common sample.
+/// As [`common_samples`], and [`CompareError::Horizon`] if the horizon is not positive or lies beyond the longer record.
 pub fn max_state_error(reference: &Trajectory, tested: &Trajectory, horizon: f64) -> Result<f64, CompareError> {
     let pairs = common_samples(reference, tested)?;
-    let last = pairs.last().map_or(0.0, |(a, _)| a.time);
+    let end = |motion: &Trajectory| motion.last().map_or(0.0, |sample| sample.time);
+    let last = end(reference).max(end(tested));
     let slack = 1e-9 * last.max(1.0);
     if !(horizon > 0.0 && horizon <= last + slack) {
         return Err(CompareError::Horizon { found: horizon, last });

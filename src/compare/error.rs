@@ -13,7 +13,7 @@ pub enum CompareError {
     DifferentRigs { reference: usize, tested: usize },
     #[error("a motion without samples cannot be compared: give at least one sample")]
     Empty,
-    #[error("horizon = {found} is not allowed: it must be greater than 0 and at most {last}, the last common sample")]
+    #[error("horizon = {found} is not allowed: it must be greater than 0 and at most {last}, the last sample")]
     Horizon { found: f64, last: f64 },
     #[error("{field} = {found} is not allowed: it must be {allowed}")]
     OutOfRange { field: &'static str, found: f64, allowed: &'static str },

@@ -7,7 +7,7 @@
 use super::PRECISION;
 use super::rapier::prelude::*;
 use crate::engine::EngineError;
-use crate::engine::geometry::{BodyPose, BodyRole, GRAVITY, JointDrift, RigGeometry};
+use crate::engine::geometry::{BodyPose, BodyRole, GRAVITY, JointDrift};
 use crate::engine::plant::{Blueprint, Carriages, Plant};
 use crate::engine::settings::{EngineSettings, Joints};
 
@@ -16,21 +16,22 @@ use crate::engine::settings::{EngineSettings, Joints};
 enum Coordinate {
     /// In the body.
     Body,
-    /// In the generalized velocity of the multibody: the body's own velocity is one step old there.
+    /// In the generalized velocity of the multibody. The body's own velocity is the one before the last substep there, which in a force
+    /// law would spoil the order of any scheme.
     Multibody { joint: MultibodyJointHandle, index: usize },
 }
 
 struct Carriage {
     body: RigidBodyHandle,
+    collider: ColliderHandle,
     coordinate: Coordinate,
     rest: Vector,
 }
 
 pub(in crate::engine) struct World {
     physics: PhysicsWorld,
-    rail: RigidBodyHandle,
+    rail: (RigidBodyHandle, ColliderHandle),
     carriages: Vec<Carriage>,
-    geometry: RigGeometry,
 }
 
 impl World {
@@ -43,8 +44,8 @@ impl World {
         };
         let rail_position = vector("rail", geometry.rail_position(blueprint.masses.len()))?;
         let rail_shape = cuboid("rail", geometry.rail)?;
-        let (rail, _) = physics.insert(RigidBodyBuilder::fixed().translation(rail_position), rail_shape);
-        let mut world = Self { physics, rail, carriages: Vec::new(), geometry };
+        let rail = physics.insert(RigidBodyBuilder::fixed().translation(rail_position), rail_shape);
+        let mut world = Self { physics, rail, carriages: Vec::new() };
         for index in 0..blueprint.masses.len() {
             world.add_carriage(blueprint, index)?;
         }
@@ -58,7 +59,7 @@ impl World {
     }
 
     fn add_carriage(&mut self, blueprint: &Blueprint<'_>, index: usize) -> Result<(), EngineError> {
-        let rest = vector("rest position", self.geometry.rest_position(index))?;
+        let rest = vector("rest position", blueprint.geometry.rest_position(index))?;
         let body = match blueprint.carriages {
             Carriages::Free => RigidBodyBuilder::dynamic(),
             Carriages::Kinematic => RigidBodyBuilder::kinematic_position_based(),
@@ -72,16 +73,16 @@ impl World {
             .angular_damping(0.0)
             .can_sleep(false);
         let mass = real(format!("mass[{index}]"), blueprint.masses[index])?;
-        let shape = cuboid("carriage", self.geometry.carriage)?.mass(mass);
-        let (body, _) = self.physics.insert(body, shape);
-        self.carriages.push(Carriage { body, coordinate: Coordinate::Body, rest });
+        let shape = cuboid("carriage", blueprint.geometry.carriage)?.mass(mass);
+        let (body, collider) = self.physics.insert(body, shape);
+        self.carriages.push(Carriage { body, collider, coordinate: Coordinate::Body, rest });
         Ok(())
     }
 
     fn join_by_impulses(&mut self, rail_position: Vector) {
         for carriage in &self.carriages {
             let joint = prismatic(carriage.rest - rail_position);
-            self.physics.insert_impulse_joint(self.rail, carriage.body, joint);
+            self.physics.insert_impulse_joint(self.rail.0, carriage.body, joint);
         }
     }
 
@@ -91,7 +92,7 @@ impl World {
         let mut joints = Vec::new();
         for (oscillator, carriage) in self.carriages.iter().enumerate() {
             let joint = prismatic(carriage.rest - rail_position);
-            let joint = self.physics.insert_multibody_joint(self.rail, carriage.body, joint);
+            let joint = self.physics.insert_multibody_joint(self.rail.0, carriage.body, joint);
             joints.push(joint.ok_or(EngineError::JointRefused { oscillator })?);
         }
         let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.physics;
@@ -128,14 +129,17 @@ impl World {
         Err(bodies.chain(colliders).collect())
     }
 
-    fn pose(&self, body: RigidBodyHandle, role: BodyRole, half_extents: [f64; 3]) -> BodyPose {
+    fn pose(&self, body: RigidBodyHandle, collider: ColliderHandle, role: BodyRole) -> BodyPose {
         let body = &self.physics.bodies[body];
         let (t, r) = (body.translation(), body.rotation());
+        // Every collider here is a cuboid; any other shape would have no extent.
+        let half =
+            self.physics.colliders[collider].shape().as_cuboid().map_or(Vector::ZERO, |shape| shape.half_extents);
         BodyPose {
             role,
             translation: [t.x, t.y, t.z].map(wide),
             rotation: [r.x, r.y, r.z, r.w].map(wide),
-            half_extents,
+            half_extents: [half.x, half.y, half.z].map(wide),
         }
     }
 }
@@ -191,13 +195,11 @@ impl Plant for World {
     }
 
     fn poses(&self) -> Vec<BodyPose> {
-        let rail = self.pose(self.rail, BodyRole::Rail, self.geometry.rail);
+        let rail = self.pose(self.rail.0, self.rail.1, BodyRole::Rail);
         let carriages = self.carriages.iter().enumerate();
-        std::iter::once(rail)
-            .chain(
-                carriages.map(|(i, carriage)| self.pose(carriage.body, BodyRole::Carriage(i), self.geometry.carriage)),
-            )
-            .collect()
+        let carriages =
+            carriages.map(|(i, carriage)| self.pose(carriage.body, carriage.collider, BodyRole::Carriage(i)));
+        std::iter::once(rail).chain(carriages).collect()
     }
 }
 

@@ -3,14 +3,25 @@
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
+mod compare;
+#[cfg(feature = "engine")]
+mod convergence;
+#[cfg(feature = "render")]
+mod demonstration;
 mod derivatives;
+#[cfg(feature = "engine")]
+mod engine_rig;
 mod events;
 mod exact_energy;
 #[cfg(feature = "render")]
 mod film;
 mod general_solver;
+#[cfg(feature = "engine")]
+mod hysteresis;
 mod independent;
 mod layering;
+#[cfg(feature = "engine")]
+mod numerical_damping;
 #[cfg(feature = "render")]
 mod pictures;
 mod prescribed;
@@ -18,7 +29,7 @@ mod reference_trajectory;
 mod scenes;
 #[cfg(feature = "render")]
 mod shaders;
-#[cfg(feature = "cli")]
+#[cfg(feature = "render")]
 mod small_disk;
 mod store;
 mod symmetry;
