@@ -301,6 +301,20 @@ fn what_cannot_be_drawn_is_refused_with_its_place() {
     assert!(matches!(refused(list), RenderError::View { .. }));
 }
 
+/// Projections overflow here; the picture may be anything, but there is one.
+#[test]
+fn absurd_scenes_do_not_panic() {
+    for (scale, radius) in [(1e8, 1.0), (1e-30, 1e-30), (1e8, 1e-35), (1.0, 1e30)] {
+        let mut list = empty();
+        list.light.shadow_radius = radius;
+        list.light.direction = Vec3::new(1.0, 1.0, 0.0);
+        list.objects.push(object(block(Vec3::splat(scale), 0.01), Vec3::X, GLOWING));
+        list.objects.push(object(floor(scale, scale), Vec3::NEG_Y, GLOWING));
+        list.camera.viewport = [0.0, 0.0, 1e-3, 1e-3];
+        assert_eq!(draw(&list).dimensions(), (100, 100));
+    }
+}
+
 #[test]
 fn auto_and_cpu_always_open_and_say_why() {
     for choice in [RendererChoice::Auto, RendererChoice::Cpu] {
