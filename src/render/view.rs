@@ -18,7 +18,9 @@ pub(crate) fn camera_matrix(camera: &Camera, [width, height]: [u32; 2]) -> Resul
     let fail = |problem| Err(RenderError::View { problem });
     let forward = camera.target - camera.eye;
     let right = forward.cross(camera.up);
-    if !(right.length() > 1e-6 * forward.length() * camera.up.length()) || !right.is_finite() {
+    // False for everything that is not a number.
+    let usable = right.length() > 1e-6 * forward.length() * camera.up.length() && right.is_finite();
+    if !usable {
         return fail("the camera needs an eye apart from its target and an up that does not point along the view");
     }
     let angle = camera.vertical_field_of_view;

@@ -75,7 +75,7 @@ fn rig(phase: f32) -> Vec<Object> {
     rig.add(block(Vec3::new(0.045, 0.03, 0.035), 0.005), Vec3::new(slider, 0.092, 0.32), BRASS);
     rig.add(block(Vec3::new(0.02, 0.012, 0.11), 0.004), Vec3::new(first, 0.13, 0.23), DARK_STEEL);
     rig.add(block(Vec3::new(0.012, 0.035, 0.02), 0.003), Vec3::new(first, 0.11, 0.32), DARK_STEEL);
-    rig.coil(first + 0.012, slider - 0.045, Vec3::new(0.0, 0.092, 0.32), 0.022, 0.0032, 9.0, BRASS);
+    rig.coil(first + 0.012, slider - 0.045, Vec3::new(0.0, 0.092, 0.32), [0.022, 0.0032, 9.0], BRASS);
     rig.arrow(first, 0.16 * phase.cos());
     rig.objects
 }
@@ -104,13 +104,20 @@ impl Rig {
         }
     }
 
-    fn coil(&mut self, from: f32, to: f32, place: Vec3, radius: f32, wire: f32, turns: f32, material: Material) {
-        let shape = Coil { coil_radius: radius, wire_radius: wire, turns, ..Coil::default() };
+    fn coil(
+        &mut self,
+        from: f32,
+        to: f32,
+        place: Vec3,
+        [coil_radius, wire_radius, turns]: [f32; 3],
+        material: Material,
+    ) {
+        let shape = Coil { coil_radius, wire_radius, turns, ..Coil::default() };
         self.add(coil(to - from, &shape), place + Vec3::X * from, material);
     }
 
     fn spring_and_damper(&mut self, from: f32, to: f32) {
-        self.coil(from, to, Vec3::new(0.0, 0.165, -0.045), 0.032, 0.005, 10.0, STEEL);
+        self.coil(from, to, Vec3::new(0.0, 0.165, -0.045), [0.032, 0.005, 10.0], STEEL);
         let axis = Vec3::new(0.0, 0.135, 0.06);
         self.add(tube(0.17, 0.024, 0.019, 0.002, 28), axis + Vec3::X * (from + 0.03), GRAPHITE);
         self.add(cylinder(0.03, 0.01, 0.001, 16), axis + Vec3::X * from, DARK_STEEL);

@@ -218,7 +218,7 @@ fn hash(list: &DrawList) -> String {
 #[test]
 fn the_demonstration_scene_is_the_known_picture() {
     let list = DrawList { overlay: Vec::new(), ..demonstration::picture([320, 180], 0.4) };
-    assert_eq!(hash(&list), "GOLDEN");
+    assert_eq!(hash(&list), "b779b6cfd516059176eaeb7c0358c9459c446160e0ae70d6534d77e633081a27");
     let mut other = list.clone();
     other.camera.eye.x += 1e-4;
     assert_ne!(hash(&other), hash(&list), "negative control: a tenth of a millimetre must show");
@@ -301,6 +301,20 @@ fn what_cannot_be_drawn_is_refused_with_its_place() {
     assert!(matches!(refused(list), RenderError::View { .. }));
 }
 
+/// Projections overflow here; the picture may be anything, but there is one.
+#[test]
+fn absurd_scenes_do_not_panic() {
+    for (scale, radius) in [(1e8, 1.0), (1e-30, 1e-30), (1e8, 1e-35), (1.0, 1e30)] {
+        let mut list = empty();
+        list.light.shadow_radius = radius;
+        list.light.direction = Vec3::new(1.0, 1.0, 0.0);
+        list.objects.push(object(block(Vec3::splat(scale), 0.01), Vec3::X, GLOWING));
+        list.objects.push(object(floor(scale, scale), Vec3::NEG_Y, GLOWING));
+        list.camera.viewport = [0.0, 0.0, 1e-3, 1e-3];
+        assert_eq!(draw(&list).dimensions(), (100, 100));
+    }
+}
+
 #[test]
 fn auto_and_cpu_always_open_and_say_why() {
     for choice in [RendererChoice::Auto, RendererChoice::Cpu] {
@@ -309,14 +323,28 @@ fn auto_and_cpu_always_open_and_say_why() {
     }
 }
 
-/// Largest difference of any channel, and the part of the pixels that differ by more than 2.
-fn difference(a: &RgbaImage, b: &RgbaImage) -> (u8, f64) {
-    let apart = |(p, q): (&Rgba<u8>, &Rgba<u8>)| (0..4).map(|i| p.0[i].abs_diff(q.0[i])).max().unwrap_or(0);
-    let differences: Vec<u8> = a.pixels().zip(b.pixels()).map(apart).collect();
-    let visible = differences.iter().filter(|&&difference| difference > 2).count();
-    (differences.iter().copied().max().unwrap_or(0), visible as f64 / differences.len() as f64)
+fn apart(p: &Rgba<u8>, q: &Rgba<u8>) -> u8 {
+    (0..4).map(|i| p.0[i].abs_diff(q.0[i])).max().unwrap_or(0)
 }
 
+/// Whether the picture changes little around a pixel: no edge of an object or a shadow passes through.
+fn is_even(image: &RgbaImage, x: u32, y: u32) -> bool {
+    let around = |centre: u32, size: u32| centre.saturating_sub(1)..=(centre + 1).min(size - 1);
+    let here = image.get_pixel(x, y);
+    around(x, image.width()).all(|x| around(y, image.height()).all(|y| apart(image.get_pixel(x, y), here) <= 6))
+}
+
+/// Part of the pixels that differ by more than 2, and the largest difference where the second picture is even.
+fn difference(a: &RgbaImage, b: &RgbaImage) -> (f64, u8) {
+    let pixels = || b.enumerate_pixels().map(|(x, y, p)| (x, y, apart(a.get_pixel(x, y), p)));
+    let visible = pixels().filter(|&(_, _, difference)| difference > 2).count();
+    let worst = pixels().filter(|&(x, y, _)| is_even(b, x, y)).map(|(_, _, difference)| difference).max();
+    (visible as f64 / f64::from(a.width() * a.height()), worst.unwrap_or(255))
+}
+
+/// Where an edge passes, WebGPU leaves to the adapter at which covered point a triangle is lit, and the thin bright bevels make
+/// that visible: measured on two software adapters, 1.6 % of the pixels of a small picture differ by more than 2. Elsewhere only
+/// roundings differ, most in half shadows, which adapters filter with 8 bits: measured 3 levels.
 #[test]
 fn the_graphics_adapter_draws_the_picture_of_the_rasteriser() {
     let opened = [RendererChoice::Gpu, RendererChoice::Software].into_iter().filter_map(|choice| open(choice).ok());
@@ -324,14 +352,17 @@ fn the_graphics_adapter_draws_the_picture_of_the_rasteriser() {
     for mut renderer in opened {
         for (size, phase) in [([640, 360], 0.4), ([333, 217], 2.0)] {
             let list = demonstration::picture(size, phase);
-            let other = demonstration::picture(size, phase + 0.05);
             let (image, _) = renderer.draw(&list).unwrap();
             assert!(image == renderer.draw(&list).unwrap().0, "the second picture of the same list differs");
-            let (worst, visible) = difference(&image, &draw(&list));
-            println!("{} at {size:?}: worst {worst}, {:.2} % above 2", renderer.info().adapter, visible * 100.0);
-            assert!(visible < 0.02, "{} % of the pixels differ visibly", visible * 100.0);
-            // Negative control: carriages moved by 3 mm are farther away than the tolerance.
-            assert!(difference(&image, &draw(&other)).1 > 0.02);
+            let (visible, worst) = difference(&image, &draw(&list));
+            println!("{} {size:?}: {:.2} % above 2, even parts {worst}", renderer.info().adapter, visible * 100.0);
+            assert!(visible < 0.025 && worst <= 4, "{:.2} % above 2, even parts {worst}", visible * 100.0);
+            // Negative controls: carriages moved by 3 mm, and a sun brighter by 10 %, are farther away than that.
+            let moved = demonstration::picture(size, phase + 0.06);
+            assert!(difference(&image, &draw(&moved)).0 > 0.025);
+            let mut brighter = list;
+            brighter.light.intensity *= 1.1;
+            assert!(difference(&image, &draw(&brighter)).1 > 4);
         }
         compared += 1;
     }

@@ -41,9 +41,7 @@ impl ShadowMap {
         for triangle in &geometry.triangles[..geometry.casting] {
             let corners = triangle.map(|index| projected[index as usize]);
             let [first, last] = rows(&corners);
-            for band in first / BLOCK..last.div_ceil(BLOCK) {
-                bands[band].push(corners);
-            }
+            bands[first / BLOCK..last.div_ceil(BLOCK)].iter_mut().for_each(|band| band.push(corners));
         }
         let chunks = self.height.par_chunks_mut(SIZE * BLOCK).zip(self.blocks.par_chunks_mut(BLOCKS));
         chunks.zip(bands).enumerate().for_each(|(band, ((texels, blocks), triangles))| {

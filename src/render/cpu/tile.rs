@@ -125,8 +125,8 @@ impl Tile {
     fn cover(&mut self, triangle: &ScreenTriangle, index: u32) {
         let [a, b, c] = triangle.corners;
         let (low, high) = (a.min(b).min(c) - self.origin, a.max(b).max(c) - self.origin);
-        let columns = low.x as usize..(high.x as usize + 1).min(TILE_WIDTH);
-        let rows = low.y as usize..(high.y as usize + 1).min(TILE_HEIGHT);
+        let columns = low.x as usize..(high.x as usize).min(TILE_WIDTH - 1) + 1;
+        let rows = low.y as usize..(high.y as usize).min(TILE_HEIGHT - 1) + 1;
         let edges = [edge(a, b, self.origin), edge(b, c, self.origin), edge(c, a, self.origin)];
         let plane = &triangle.inverse_distance;
         let depth = Ramp::new(plane.at(self.origin - a), plane.slope.x, plane.slope.y);

@@ -5,6 +5,7 @@
 mod adapter;
 mod pipelines;
 mod targets;
+mod trial;
 
 use super::draw_list::DrawList;
 use super::geometry::{Geometry, linear};
@@ -84,8 +85,9 @@ impl GpuRenderer {
             backend: backend_name(info.backend).into(),
             reason: candidate.reason.clone(),
         };
-        let renderer = Self::with(info, device, queue, complaint);
+        let mut renderer = Self::with(info, device, queue, complaint);
         renderer.check("opening the device")?;
+        trial::prove(&mut renderer)?;
         Ok(renderer)
     }
 
