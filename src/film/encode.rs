@@ -35,12 +35,14 @@ impl VideoEncoder {
         let FilmSettings { frames_per_second, quantiser, .. } = *settings;
         let config = EncoderConfig::new()
             .usage_type(UsageType::CameraVideoRealTime)
-            // Only this mode keeps to the range of quantisers; with rate control off it is ignored.
-            .rate_control_mode(RateControlMode::Quality)
+            // This mode keeps to the range of quantisers and has no means to drop a frame. With rate control off the range is ignored; the
+            // quality mode drops frames or complains on standard error.
+            .rate_control_mode(RateControlMode::Bufferbased)
             .qp(QpRange::new(quantiser, quantiser))
+            // Each of these changes the quantiser or leaves out what moves little.
             .adaptive_quantization(false)
             .background_detection(false)
-            .skip_frames(false)
+            .scene_change_detect(false)
             .max_frame_rate(FrameRate::from_hz(frames_per_second as f32))
             // A key frame every two seconds, to jump to.
             .intra_frame_period(IntraFramePeriod::from_num_frames(2 * frames_per_second))

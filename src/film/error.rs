@@ -16,8 +16,8 @@ pub enum FilmError {
     Range { start: u64, end: u64, count: u64 },
     #[error("{frames_per_second} frames per second cannot be filmed: choose 1 to {limit}")]
     FrameRate { frames_per_second: u32, limit: u32 },
-    #[error("quantiser {quantiser} does not exist in H.264: choose 0 (best) to 51")]
-    Quantiser { quantiser: u8 },
+    #[error("the film cannot be encoded with quantiser {quantiser}: choose {best} (best) to {worst} (worst)")]
+    Quantiser { quantiser: u8, best: u8, worst: u8 },
     #[error(
         "a video of {width} x {height} pixels cannot be encoded: each side must be at least {least}, the longer at most {long} and the \
          shorter at most {short} pixels. Choose another size, or frames without a film"

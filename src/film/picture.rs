@@ -7,7 +7,10 @@ use std::io::Cursor;
 
 /// An opaque picture as PNG; alpha is left out.
 pub(super) fn encode(image: &RgbaImage) -> Result<Vec<u8>, EncodingError> {
-    let rgb: Vec<u8> = image.pixels().flat_map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2]]).collect();
+    let mut rgb = vec![0; image.as_raw().len() / 4 * 3];
+    for (rgb, rgba) in rgb.chunks_exact_mut(3).zip(image.as_raw().chunks_exact(4)) {
+        rgb.copy_from_slice(&rgba[..3]);
+    }
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, image.width(), image.height());
     encoder.set_color(ColorType::Rgb);
@@ -30,6 +33,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<RgbaImage, String> {
     if (info.color_type, info.bit_depth) != (ColorType::Rgb, BitDepth::Eight) {
         return Err("it is not 8-bit RGB".to_owned());
     }
-    let rgba = rgb.chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], 255]).collect();
+    let mut rgba = vec![255; rgb.len() / 3 * 4];
+    for (rgba, rgb) in rgba.chunks_exact_mut(4).zip(rgb.chunks_exact(3)) {
+        rgba[..3].copy_from_slice(rgb);
+    }
     RgbaImage::from_raw(info.width, info.height, rgba).ok_or_else(|| "it has too few pixels".to_owned())
 }

@@ -26,56 +26,71 @@ const BLUE: [i32; 3] =
 const RED: [i32; 3] =
     [fixed(224.0 * (1.0 - 0.2126) / 1.5748), fixed(-224.0 * 0.7152 / 1.5748), fixed(-224.0 * 0.0722 / 1.5748)];
 
-/// Planes of one picture, kept between pictures.
+/// Planes of one picture, kept between pictures. Filling them is a hot loop: rows are walked by iterators, without indices.
 pub(super) struct Planes {
     width: usize,
     height: usize,
     y: Vec<u8>,
     u: Vec<u8>,
     v: Vec<u8>,
+    /// Two rows of the picture, added.
+    sums: Vec<[i32; 3]>,
 }
 
 impl Planes {
-    /// Planes for even `size`.
+    /// Planes for even `size`, at least 2x2, for pictures of that size or one less in width or height.
     pub fn new(size: [u32; 2]) -> Self {
         let [width, height] = size.map(|side| side as usize);
         let chroma = width / 2 * (height / 2);
-        Self { width, height, y: vec![0; width * height], u: vec![0; chroma], v: vec![0; chroma] }
+        Self {
+            width,
+            height,
+            y: vec![0; width * height],
+            u: vec![0; chroma],
+            v: vec![0; chroma],
+            sums: vec![[0; 3]; width],
+        }
     }
 
     /// Fills the planes. Columns and rows the picture lacks repeat its last ones.
     pub fn fill(&mut self, image: &RgbaImage) {
         let (columns, rows) = (image.width() as usize, image.height() as usize);
         let bytes: &[u8] = image.as_raw();
-        let row = |y: usize| &bytes[y.min(rows - 1) * columns * 4..][..columns * 4];
-        for y in 0..self.height {
-            let pixels = row(y);
-            for (x, luma) in self.y[y * self.width..][..self.width].iter_mut().enumerate() {
-                *luma = sample(&LUMA, rgb(pixels, x.min(columns - 1)), 16, 1);
+        let row = |y: usize| bytes[y.min(rows - 1) * columns * 4..][..columns * 4].chunks_exact(4);
+        for (y, luma) in self.y.chunks_exact_mut(self.width).enumerate() {
+            let (inside, beyond) = luma.split_at_mut(columns.min(self.width));
+            for (luma, pixel) in inside.iter_mut().zip(row(y)) {
+                *luma = sample(&LUMA, rgb(pixel), 16, 1);
             }
+            beyond.fill(inside[inside.len() - 1]);
         }
         let half = self.width / 2;
-        for y in 0..self.height / 2 {
-            let (upper, lower) = (row(2 * y), row(2 * y + 1));
-            for x in 0..half {
-                let [left, middle, right] = [(2 * x).saturating_sub(1), 2 * x, 2 * x + 1].map(|x| {
-                    let x = x.min(columns - 1);
-                    let (upper, lower) = (rgb(upper, x), rgb(lower, x));
-                    [0, 1, 2].map(|i| upper[i] + lower[i])
-                });
+        let chroma = self.u.chunks_exact_mut(half).zip(self.v.chunks_exact_mut(half));
+        for (y, (blue, red)) in chroma.enumerate() {
+            for (sum, (upper, lower)) in self.sums.iter_mut().zip(row(2 * y).zip(row(2 * y + 1))) {
+                let (upper, lower) = (rgb(upper), rgb(lower));
+                *sum = [upper[0] + lower[0], upper[1] + lower[1], upper[2] + lower[2]];
+            }
+            let last = self.sums[columns - 1];
+            self.sums[columns..].fill(last);
+            let mut left = self.sums[0];
+            for (pair, (blue, red)) in self.sums.chunks_exact(2).zip(blue.iter_mut().zip(red)) {
+                let (middle, right) = (pair[0], pair[1]);
                 let sum = [0, 1, 2].map(|i| left[i] + 2 * middle[i] + right[i]);
-                self.u[y * half + x] = sample(&BLUE, sum, 128, 8);
-                self.v[y * half + x] = sample(&RED, sum, 128, 8);
+                *blue = sample(&BLUE, sum, 128, 8);
+                *red = sample(&RED, sum, 128, 8);
+                left = right;
             }
         }
     }
 }
 
-fn rgb(row: &[u8], x: usize) -> [i32; 3] {
-    [0, 1, 2].map(|channel| i32::from(row[4 * x + channel]))
+fn rgb(pixel: &[u8]) -> [i32; 3] {
+    [i32::from(pixel[0]), i32::from(pixel[1]), i32::from(pixel[2])]
 }
 
 /// `offset + weights . sum / divisor`, rounded. At most 2^16 * 8 * 255, which fits.
+#[inline]
 fn sample(weights: &[i32; 3], sum: [i32; 3], offset: i32, divisor: i32) -> u8 {
     let weighted = weights[0] * sum[0] + weights[1] * sum[1] + weights[2] * sum[2];
     // The divisor is a power of two and the shift rounds down, also below zero.

@@ -3,6 +3,7 @@
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(feature = "engine")]
 mod compare;
 #[cfg(feature = "engine")]
 mod convergence;
@@ -29,7 +30,6 @@ mod reference_trajectory;
 mod scenes;
 #[cfg(feature = "render")]
 mod shaders;
-#[cfg(feature = "render")]
 mod small_disk;
 mod store;
 mod symmetry;

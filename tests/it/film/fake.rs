@@ -14,6 +14,10 @@ use stickslip::store::{Existing, Origin, OutputDir};
 pub const SIZE: [u32; 2] = [64, 48];
 /// Side of a block of the marker and of the moving square.
 const BLOCK: u32 = 8;
+/// Bits of the marker; fewer where the picture is narrow.
+const BITS: u32 = 16;
+/// Pictures from this width on are full of noise, another in each frame, which costs the video encoder many bits.
+const NOISY_WIDTH: u32 = 320;
 
 /// Where the film is broken off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +55,7 @@ fn frame(size: [u32; 2], index: u64) -> DrawList {
         fill,
         stroke: None,
     };
-    let bits = (0..size[0] / BLOCK).map(|bit| {
+    let bits = (0..BITS.min(size[0] / BLOCK)).map(|bit| {
         let is_set = index >> bit & 1 == 1;
         block(bit * BLOCK, 0, Colour::rgb(if is_set { 0xff_ff_ff } else { 0 }))
     });
@@ -67,7 +71,7 @@ fn frame(size: [u32; 2], index: u64) -> DrawList {
         shadow_radius: 1.0,
     };
     let camera = Camera {
-        eye: Vec3::Z,
+        eye: Vec3::new(index as f32, 0.0, 1.0),
         target: Vec3::ZERO,
         up: Vec3::Y,
         vertical_field_of_view: 1.0,
@@ -85,7 +89,7 @@ fn frame(size: [u32; 2], index: u64) -> DrawList {
 
 /// The index a picture says it has.
 pub fn index_of(picture: &RgbaImage) -> u64 {
-    let bits = (0..picture.width() / BLOCK).map(|bit| {
+    let bits = (0..BITS.min(picture.width() / BLOCK)).map(|bit| {
         let pixel = picture.get_pixel(bit * BLOCK + BLOCK / 2, BLOCK / 2).0;
         u64::from(pixel[1] > 127) << bit
     });
@@ -99,10 +103,15 @@ pub fn picture(size: [u32; 2], index: u64) -> RgbaImage {
 
 fn paint(list: &DrawList) -> RgbaImage {
     let [width, height] = list.size;
+    let mut noise = list.camera.eye.x as u32;
     let mut image = RgbaImage::from_fn(width, height, |_, y| {
+        // The generator of Numerical Recipes; its high bits are random enough here.
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let grain = if width >= NOISY_WIDTH { (noise >> 27) as u8 } else { 0 };
         let mix = |from: u8, to: u8| (u32::from(from) * (height - y) + u32::from(to) * y) / height;
         let (top, bottom) = (list.background.top.0, list.background.bottom.0);
-        Rgba([0, 1, 2, 3].map(|i| mix(top[i], bottom[i]) as u8))
+        let [r, g, b] = [0, 1, 2].map(|i| mix(top[i], bottom[i]) as u8 + grain);
+        Rgba([r, g, b, 255])
     });
     for item in &list.overlay {
         let OverlayItem::Box { area, fill, .. } = item else { continue };

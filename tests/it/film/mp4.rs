@@ -158,7 +158,7 @@ pub fn colour_description(sps: &[u8]) -> Option<(bool, [u32; 3])> {
     bits.exp_golomb(); // seq_parameter_set_id
     bits.exp_golomb(); // log2_max_frame_num_minus4
     match bits.exp_golomb() {
-        0 => drop(bits.exp_golomb()), // log2_max_pic_order_cnt_lsb_minus4
+        0 => _ = bits.exp_golomb(), // log2_max_pic_order_cnt_lsb_minus4
         2 => {}
         other => panic!("pic_order_cnt_type {other} is not used for such films"),
     }
@@ -169,7 +169,7 @@ pub fn colour_description(sps: &[u8]) -> Option<(bool, [u32; 3])> {
     assert_eq!(bits.read(1), 1, "frame_mbs_only_flag: not interlaced");
     bits.skip(1); // direct_8x8_inference_flag
     if bits.read(1) == 1 {
-        (0..4).for_each(|_| drop(bits.exp_golomb())); // frame cropping
+        (0..4).for_each(|_| _ = bits.exp_golomb()); // frame cropping
     }
     if bits.read(1) == 0 {
         return None; // vui_parameters_present_flag

@@ -122,7 +122,10 @@ fn impossible_settings_are_errors_before_anything_is_drawn() {
         let rate = FilmSettings { frames_per_second, ..settings() };
         check(&rate, 10, |e| matches!(e, FilmError::FrameRate { .. }));
     }
-    check(&FilmSettings { quantiser: 52, ..settings() }, 10, |e| matches!(e, FilmError::Quantiser { .. }));
+    for quantiser in [11, 52] {
+        let coded = FilmSettings { quantiser, ..settings() };
+        check(&coded, 10, |e| matches!(e, FilmError::Quantiser { .. }));
+    }
     for size in [[8, 8], [4096, 16], [3840, 2162]] {
         check(&FilmSettings { size, ..settings() }, 10, |e| matches!(e, FilmError::VideoSize { .. }));
     }

@@ -107,16 +107,26 @@ fn the_decoded_frames_are_the_drawn_ones_in_order() {
 
 #[test]
 fn the_quantiser_decides_quality_and_size() {
-    let [fine, coarse] = [10, 40].map(|quantiser| film(&FilmSettings { quantiser, ..settings() }, 10));
+    let [fine, coarse] = [12, 40].map(|quantiser| film(&FilmSettings { quantiser, ..settings() }, 10));
     assert!(fine.len() > coarse.len());
     let psnr = |bytes: &[u8]| luma_psnr(&mp4::read(bytes).decode()[9], &picture(SIZE, 9));
-    assert!(psnr(&fine) > least_psnr(10), "{:.1}", psnr(&fine));
-    assert!(psnr(&coarse) < least_psnr(10), "{:.1}", psnr(&coarse));
+    assert!(psnr(&fine) > least_psnr(12), "{:.1}", psnr(&fine));
+    assert!(psnr(&coarse) < least_psnr(12), "{:.1}", psnr(&coarse));
+}
+
+#[test]
+fn no_frame_is_dropped_to_save_bits() {
+    // The encoder's own default budget, 120 kbit/s, is exceeded many times over: this is where some of its modes leave frames out.
+    let costly = FilmSettings { size: [320, 240], quantiser: 12, ..settings() };
+    let bytes = film(&costly, 40);
+    assert!(bytes.len() * 8 > 2 * 120_000 * 40 / 25, "{} bytes are no test", bytes.len());
+    let indices: Vec<_> = mp4::read(&bytes).decode().iter().map(|planes| index_of(&bt709(planes))).collect();
+    assert_eq!(indices, (0..40).collect::<Vec<_>>());
 }
 
 #[test]
 fn colours_are_signalled_and_stored_as_bt709() {
-    let bytes = film(&FilmSettings { quantiser: 10, ..settings() }, 1);
+    let bytes = film(&FilmSettings { quantiser: 12, ..settings() }, 1);
     let movie = mp4::read(&bytes);
     // Limited range; primaries, transfer and matrix of BT.709 (H.264 tables E-3 to E-5).
     assert_eq!(colour_description(movie.sps), Some((false, [1, 1, 1])));
@@ -126,7 +136,7 @@ fn colours_are_signalled_and_stored_as_bt709() {
         let pixel = image.get_pixel(4, 28).0;
         [0xd0, 0x40, 0x20].iter().zip(pixel).map(|(&drawn, found)| i32::from(found).abs_diff(drawn)).max().unwrap()
     };
-    // 8-bit chroma and luma of limited range alone cost up to 2 levels, the quantiser's step of 2 some more.
+    // 8-bit chroma and luma of limited range alone cost up to 2 levels, the quantiser's step of 2.5 some more.
     assert!(far_off(&bt709(decoded)) <= 5, "{}", far_off(&bt709(decoded)));
     // Negative control: the other usual matrix is told apart.
     assert!(far_off(&bt601(decoded)) > 10, "{}", far_off(&bt601(decoded)));

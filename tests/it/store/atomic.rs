@@ -1,6 +1,6 @@
 use crate::small_disk::{SmallDisk, names_in, unwritable_place};
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use stickslip::store::{StoreError, remove_leftovers, write_atomically};
 
 #[test]
