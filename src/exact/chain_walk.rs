@@ -126,7 +126,7 @@ impl<'a> ChainWalk<'a> {
     fn leaves_bound(&self, motion: &Expansion, span: f64) -> Option<f64> {
         let bound = self.amplitude_bound;
         (0..self.chain.oscillators())
-            .filter(|&i| !(motion.bound(i, span) <= bound))
+            .filter(|&i| motion.bound(i, span) > bound)
             .flat_map(|i| [1.0, -1.0].map(|sign| motion.series(|y| y[i], sign, -bound, span, bound)))
             .filter_map(|excess| first_crossing(&excess, span, Watch::Crossings).time())
             .min_by(f64::total_cmp)

@@ -47,7 +47,7 @@ impl TwoMassFlow {
         // Validates the state before anything is computed from it.
         let events = self.first_switches(initial, LONGEST_HALF_PERIOD, 2)?;
         let acceleration = self.acceleration1(initial);
-        if !(acceleration < 0.0) {
+        if acceleration >= 0.0 {
             return Err(ExactError::NotAReversal { x1: start[0], x2: start[1], v2: start[2], acceleration });
         }
         for event in events {

@@ -9,6 +9,7 @@
 //!
 //! - [`TwoMassFlow`]: the paper's rig in modal coordinates (`modal`, `modal_phase`, `scan`, `walk`), about 0.1 us per event.
 //! - [`ChainFlow`]: any chain, matrix exponential by series (`pattern`, `chain_walk`).
+//! - [`PrescribedFlow`]: hysteresis under a prescribed motion of oscillator 0 (`prescribed`).
 //! - [`ExactTrajectory`]: the motion of either at any time, and its energy ledger (`piece`, `gauss`).
 //!
 //! Rules for events. A slip phase begins when |f| = 1 is exceeded, a stick phase when the sliding velocity changes its sign.
@@ -28,6 +29,7 @@ mod modal;
 mod modal_phase;
 mod pattern;
 mod piece;
+mod prescribed;
 mod scan;
 mod series;
 mod trajectory;
@@ -37,5 +39,6 @@ mod walk;
 pub use bound::DEFAULT_AMPLITUDE_BOUND;
 pub use chain_flow::ChainFlow;
 pub use error::ExactError;
+pub use prescribed::PrescribedFlow;
 pub use trajectory::{ExactTrajectory, Instant};
 pub use two_mass::{Arrival, Representation, TwoMassFlow};

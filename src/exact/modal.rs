@@ -17,8 +17,10 @@
 use super::series::{ORDER, Series};
 use nalgebra::{Complex, Matrix4, Vector4};
 
-/// Cells in a block of the table.
-pub(super) const CELLS: usize = 64;
+/// Most cells in a block of the table, after which bounds are taken anew.
+const MOST_CELLS: usize = 64;
+/// Largest growth of a mode over a block, which its bounds have to allow for.
+const MOST_GROWTH: f64 = 2.0;
 /// Fine steps in a cell.
 const FINE: usize = 16;
 /// Highest power of the local polynomial around a fine node: |l| dt <= 1/128 there, the rest is below 1e-18.
@@ -57,11 +59,13 @@ pub(super) struct Modes {
     pub(super) to_modal: Matrix4<f64>,
     /// Width of a cell.
     pub(super) cell: f64,
+    /// Number of cells in a block.
+    pub(super) cells: usize,
     /// `M2 width^2/8` of a block is the dot product with `(|c1|, |c2|)`; likewise `M3 width/3`, and the largest |x - x*|.
     pub(super) bulge_weights: [f64; 2],
     pub(super) jerk_weights: [f64; 2],
     pub(super) amplitude_weights: [f64; 2],
-    /// Exponentials over 0, 1, ..., `CELLS` cells.
+    /// Exponentials over 0, 1, ..., `cells` cells.
     pub(super) coarse: Vec<Modal>,
     /// Exponentials over 0, 1, ..., `FINE` fine steps.
     fine: [Modal; FINE + 1],
@@ -123,7 +127,9 @@ impl Modes {
             if column % 2 == 0 { entry.re } else { -entry.im }
         });
         let to_modal = well_conditioned_inverse(&to_physical)?;
-        let block = cell * CELLS as f64;
+        let fastest_growth = eigenvalues.iter().map(|l| l.re.max(0.0)).fold(0.0, f64::max);
+        let cells = ((MOST_GROWTH.ln() / (fastest_growth * cell)) as usize).clamp(1, MOST_CELLS);
+        let block = cell * cells as f64;
         let rates = eigenvalues.map(|l| l.norm());
         let growth = eigenvalues.map(|l| (l.re.max(0.0) * block).exp());
         let position = [0, 1].map(|j: usize| vectors[j][0].norm().max(vectors[j][1].norm()));
@@ -132,10 +138,11 @@ impl Modes {
             to_physical,
             to_modal,
             cell,
+            cells,
             bulge_weights: [0, 1].map(|j| rates[j].powi(2) * growth[j] * cell * cell / 8.0),
             jerk_weights: [0, 1].map(|j| rates[j].powi(3) * growth[j] * cell / 3.0),
             amplitude_weights: [0, 1].map(|j| position[j] * growth[j]),
-            coarse: (0..=CELLS).map(|n| exponential(&eigenvalues, n as f64 * cell)).collect(),
+            coarse: (0..=cells).map(|n| exponential(&eigenvalues, n as f64 * cell)).collect(),
             fine: std::array::from_fn(|n| exponential(&eigenvalues, n as f64 * cell / FINE as f64)),
             powers: std::array::from_fn(|k| scaled_power(&eigenvalues, k)),
         })

@@ -205,10 +205,10 @@ impl ModalPair {
         self.modes(phase.contact).after(&phase.c, time)
     }
 
-    /// Coordinates after a whole number of blocks is left behind.
+    /// Coordinates one block later.
     #[inline]
     pub(super) fn after_block(modes: &Modes, c: &Modal) -> Modal {
-        rotated(c, &modes.coarse[super::modal::CELLS])
+        rotated(c, &modes.coarse[modes.cells])
     }
 }
 

@@ -9,7 +9,7 @@
 //! - anything else goes to the search by halving of [`super::crossing`].
 
 use super::crossing::{Verdict, Watch, first_crossing};
-use super::modal::{CELLS, Modal, Modes, dot, magnitudes, rotated};
+use super::modal::{Modal, Modes, dot, magnitudes, rotated};
 use super::modal_phase::{Contact, End, ModalPair, Phase};
 use super::series::Series;
 
@@ -31,6 +31,9 @@ struct Block<'a> {
     bulge: f64,
     jerk: f64,
     first: bool,
+    /// Whether `q` has been off its guards, beyond rounding, since the phase began.
+    armed: bool,
+    tolerance: f64,
 }
 
 impl ModalPair {
@@ -39,13 +42,14 @@ impl ModalPair {
         let modes = self.modes(phase.contact);
         let guards = self.guards(phase);
         let mut c = phase.c;
+        let mut armed = false;
         for number in 0_u64.. {
-            let base = number as f64 * (CELLS as f64 * modes.cell);
+            let base = number as f64 * (modes.cells as f64 * modes.cell);
             let remaining = limit - base;
             if remaining < 0.0 {
                 break;
             }
-            let cells = ((remaining / modes.cell) as usize).saturating_add(1).min(CELLS);
+            let cells = ((remaining / modes.cell) as usize).saturating_add(1).min(modes.cells);
             let [m1, m2] = magnitudes(&c);
             let weighted = |weights: &[f64; 2]| weights[0] * m1 + weights[1] * m2;
             let block = Block {
@@ -56,10 +60,13 @@ impl ModalPair {
                 bulge: weighted(&modes.bulge_weights),
                 jerk: weighted(&modes.jerk_weights),
                 first: number == 0,
+                armed,
+                tolerance: 16.0 * f64::EPSILON * (m1 + m2 + guards[0].abs()),
             };
             let found = block.scan(cells);
             let [e1, e2] = self.equilibrium(phase.contact, phase.anchor);
-            if !(weighted(&modes.amplitude_weights) + e1.abs().max(e2.abs()) <= amplitude_bound) {
+            let amplitude = weighted(&modes.amplitude_weights) + e1.abs().max(e2.abs());
+            if amplitude > amplitude_bound || amplitude.is_nan() {
                 let until = found.map_or(remaining, |exit| exit.time.min(remaining));
                 if let Some(exit) = block.leaves_bound([e1, e2], amplitude_bound, until) {
                     return Exit { time: base + exit.time, ..exit };
@@ -68,7 +75,10 @@ impl ModalPair {
             match found {
                 Some(exit) if exit.time <= remaining => return Exit { time: base + exit.time, ..exit },
                 Some(_) => break,
-                None => c = Self::after_block(modes, &c),
+                None => {
+                    armed = block.armed_before(cells);
+                    c = Self::after_block(modes, &c);
+                }
             }
         }
         Exit { end: End::Limit, time: limit, c: self.advanced(phase, limit) }
@@ -81,20 +91,18 @@ impl Block<'_> {
         let (inner_lower, inner_upper) = (lower + self.bulge, upper - self.bulge);
         let inside = |q: f64| q > inner_lower && q < inner_upper;
         let mut left_inside = inside(self.c[0] + self.c[2]);
-        let mut n = 1;
         if !left_inside && self.first && self.starts_inwards() {
             // Only the far end of the first cell is left to be certified.
             left_inside = true;
         }
-        while n <= cells {
+        for n in 1..=cells {
             let right_inside = inside(dot(&self.c, &self.modes.coarse[n]));
-            if !(left_inside && right_inside) {
-                if let Some(exit) = self.examine(n) {
-                    return Some(exit);
-                }
+            if !(left_inside && right_inside)
+                && let Some(exit) = self.examine(n)
+            {
+                return Some(exit);
             }
             left_inside = right_inside;
-            n += 1;
         }
         None
     }
@@ -106,6 +114,12 @@ impl Block<'_> {
             && q > self.guards[0] + self.bulge
             && self.modes.slope(&self.c) <= 1e-12 * self.jerk
             && self.modes.curvature(&self.c) + 1.01 * self.jerk < 0.0
+    }
+
+    /// Whether `q` has been off its guards by node `n`.
+    fn armed_before(&self, n: usize) -> bool {
+        let off = |q: f64| q - self.guards[0] > self.tolerance && self.guards[1] - q > self.tolerance;
+        self.armed || (0..=n).rev().any(|n| off(dot(&self.c, &self.modes.coarse[n])))
     }
 
     fn at_node(&self, n: usize) -> Modal {
@@ -149,7 +163,7 @@ impl Block<'_> {
         let q = self.modes.coefficients(left);
         let [m1, m2] = magnitudes(&self.c);
         let watch = match self.phase.contact {
-            Contact::Stick => Watch::Touches { armed: n > 1 || !self.first },
+            Contact::Stick => Watch::Touches { armed: self.armed_before(n - 1) },
             Contact::Slip => Watch::Crossings,
         };
         let verdict = |side: f64, guard: f64| {
@@ -177,7 +191,7 @@ impl Block<'_> {
     #[cold]
     fn leaves_bound(&self, equilibrium: [f64; 2], bound: f64, until: f64) -> Option<Exit> {
         let cell = self.modes.cell;
-        for n in 1..=CELLS {
+        for n in 1..=self.modes.cells {
             let start = (n - 1) as f64 * cell;
             if start > until {
                 return None;

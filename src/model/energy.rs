@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! E = 1/2 v^T M v + 1/2 x^T sym(K) x + sum_j R_j^2 f_j^2 / (2 k_j)
-//! E(t) - E(0) = W_damping + W_self_excitation + W_circulatory + W_friction
+//! E(t) - E(0) = W_damping + W_self_excitation + W_circulatory + W_friction + W_drive
 //! dW_damping = -v^T D v dt,  dW_self_excitation = -v^T S v dt,  dW_circulatory = -v^T skew(K) x dt,
-//! dW_friction = -sum_j R_j |u_j'| dt over the slip phases
+//! dW_friction = -sum_j R_j |u_j'| dt over the slip phases,  dW_drive = F v dt where a force F prescribes a motion
 //! ```
 //!
 //! All works are done *on* the system: self-excitation is positive, friction negative. The difference of the two sides is
@@ -26,7 +26,8 @@ pub struct Works {
     pub circulatory: f64,
     /// Sliding friction, not positive.
     pub friction: f64,
-    /// A prescribed motion, either sign.
+    /// Whoever prescribes a motion; zero for a free system.
+    #[serde(default)]
     pub drive: f64,
 }
 
@@ -79,7 +80,7 @@ impl OscillatorChain {
         kinetic + elastic + sliders
     }
 
-    /// Power fed in by damping, self-excitation and circulatory stiffness (friction is left at zero: it acts by slip).
+    /// Power fed in by damping, self-excitation and circulatory stiffness (friction and drive are left at zero: the one acts by slip, the other from outside).
     #[must_use]
     pub fn powers(&self, positions: &[f64], velocities: &[f64]) -> Works {
         let x = DVector::from_column_slice(positions);
