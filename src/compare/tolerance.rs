@@ -110,6 +110,9 @@ impl Tolerances {
     }
 }
 
+/// No tolerance for states or amplitudes may exceed this part of the motion: such a check would prove nothing.
+pub(super) const LARGEST_TOLERANCE: f64 = 0.1;
+
 /// Rounding of positions (once a step, of random sign), and of the step itself (once and for all, so that time runs wrong by one
 /// unit roundoff).
 fn rounding_growth(t: f64, step: f64) -> f64 {

@@ -14,9 +14,11 @@ pub enum EngineError {
     /// A number that the chosen precision cannot hold.
     #[error("engine: {field} = {found} is not representable in {precision}: scale the rig, or choose double precision")]
     NotRepresentable { field: String, found: f64, precision: &'static str },
-    /// A prescribed motion starts at its own place.
-    #[error("engine: positions[0] = {found} is not allowed: the prescribed motion starts at 0")]
-    OffPrescribedMotion { found: f64 },
+    /// An initial state that contradicts the prescribed motion.
+    #[error(
+        "engine: {field}[{index}] = {found}, expected {expected}: start with the prescribed motion, all else at rest"
+    )]
+    OffPrescribedMotion { field: &'static str, index: usize, found: f64, expected: f64 },
     /// Rapier did not take a multibody joint.
     #[error("engine: Rapier refused the multibody joint of oscillator {oscillator}: use impulse joints")]
     JointRefused { oscillator: usize },

@@ -9,7 +9,7 @@ use super::plant::{self, Blueprint, Carriages};
 use super::recorder::{Poses, Recorder, Recording};
 use super::{EngineError, EngineFlow, EngineInfo, EngineSettings};
 use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
-use crate::model::{OscillatorChain, PrescribedMotion};
+use crate::model::{ContactState, OscillatorChain, PrescribedMotion};
 
 /// A chain whose oscillator 0 is moved by hand.
 #[derive(Debug, Clone)]
@@ -39,10 +39,11 @@ impl PrescribedFlow {
         self.flow.engine()
     }
 
-    /// The motion with the engine's poses. Of `initial`, the slider forces and the places of the resting oscillators count.
+    /// The motion with the engine's poses. `initial` gives the slider forces and where the other oscillators are held.
     ///
     /// # Errors
-    /// As [`Flow::trajectory`]; [`EngineError::OffPrescribedMotion`] if oscillator 0 does not start at 0.
+    /// As [`Flow::trajectory`]; [`EngineError::OffPrescribedMotion`] unless oscillator 0 starts at 0 with the velocity `a w`, and the
+    /// others at rest.
     pub fn record(&self, initial: &State, sampling: Sampling) -> Result<Recording, EngineError> {
         self.run(initial, sampling, Poses::Keep)
     }
@@ -77,15 +78,25 @@ impl PrescribedFlow {
     }
 
     fn start(&self, initial: &State) -> Result<Instant, EngineError> {
-        let mut state = initial.clone().validated(&self.chain)?;
-        if state.positions[0] != 0.0 {
-            return Err(EngineError::OffPrescribedMotion { found: state.positions[0] });
+        let state = initial.clone().validated(&self.chain)?;
+        Self::agree("positions", 0, state.positions[0], 0.0, self.motion.amplitude)?;
+        let speed = self.motion.velocity(0.0);
+        for (index, &velocity) in state.velocities.iter().enumerate() {
+            let expected = if index == 0 { speed } else { 0.0 };
+            Self::agree("velocities", index, velocity, expected, speed)?;
         }
-        state.velocities.fill(0.0);
-        let contacts = vec![crate::model::ContactState::Stick; self.chain.sliders()];
+        let contacts = vec![ContactState::Stick; self.chain.sliders()];
         let mut start = Instant { time: 0.0, state, contacts, drive_force: 0.0 };
         self.complete(&mut start)?;
         Ok(start)
+    }
+
+    /// Room for rounding: the state may have been computed in another way.
+    fn agree(field: &'static str, index: usize, found: f64, expected: f64, scale: f64) -> Result<(), EngineError> {
+        if (found - expected).abs() <= 1e-12 * scale {
+            return Ok(());
+        }
+        Err(EngineError::OffPrescribedMotion { field, index, found, expected })
     }
 
     /// Fills in what the motion prescribes (velocity) and what follows from it (contacts, force of the drive).
@@ -104,7 +115,7 @@ impl Flow for PrescribedFlow {
     type Error = EngineError;
 
     fn name(&self) -> String {
-        format!("{}, prescribed motion", self.flow.name())
+        format!("{}-prescribed", self.flow.name())
     }
 
     fn trajectory(&self, initial: &State, sampling: Sampling) -> Result<Trajectory, EngineError> {

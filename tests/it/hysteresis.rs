@@ -1,9 +1,10 @@
 //! The Jenkins element in the engine under prescribed motion `x_0 = a sin(w t)`: initial loading, loop area, energy balance.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use stickslip::compare::observed_order;
+use stickslip::compare::{max_state_error, observed_order};
 use stickslip::dynamics::{EventKind, Flow, Sample, Sampling, State, Trajectory};
 use stickslip::engine::{EngineError, EngineSettings, Precision, PrescribedFlow};
+use stickslip::exact;
 use stickslip::model::{PrescribedMotion, RigParameters, TwoMassRig};
 
 fn cycles(amplitude: f64, steps_per_cycle: u32, precision: Precision) -> Trajectory {
@@ -12,7 +13,11 @@ fn cycles(amplitude: f64, steps_per_cycle: u32, precision: Precision) -> Traject
     let settings = EngineSettings { precision, ..EngineSettings::default_for(step) };
     let motion = PrescribedMotion { amplitude, angular_frequency: 1.0 };
     let flow = PrescribedFlow::new(rig.chain(), motion, settings).unwrap();
-    flow.trajectory(&State::rest(rig.chain()), Sampling { interval: step, t_end: 3.0 * TAU }).unwrap()
+    flow.trajectory(&start(amplitude), Sampling { interval: step, t_end: 3.0 * TAU }).unwrap()
+}
+
+fn start(speed: f64) -> State {
+    State::two_mass([0.0, 0.0, speed, 0.0, 0.0])
 }
 
 /// Area of the loop of slider force over elongation in the last cycle, by the trapezoidal rule.
@@ -95,7 +100,26 @@ fn a_motion_that_starts_elsewhere_is_refused() {
     let rig = TwoMassRig::new(RigParameters::default()).unwrap();
     let motion = PrescribedMotion { amplitude: 1.0, angular_frequency: 1.0 };
     let flow = PrescribedFlow::new(rig.chain(), motion, EngineSettings::default_for(0.01)).unwrap();
-    let start = State::two_mass([0.5, 0.0, 0.0, 0.0, 0.0]);
-    let error = flow.trajectory(&start, Sampling { interval: 0.1, t_end: 1.0 }).unwrap_err();
-    assert_eq!(error, EngineError::OffPrescribedMotion { found: 0.5 });
+    for (state, field) in [([0.5, 0.0, 1.0, 0.0, 0.0], "positions"), ([0.0, 0.0, 0.0, 0.0, 0.0], "velocities")] {
+        let error = flow.trajectory(&State::two_mass(state), Sampling { interval: 0.1, t_end: 1.0 }).unwrap_err();
+        assert!(matches!(error, EngineError::OffPrescribedMotion { field: f, index: 0, .. } if f == field), "{error}");
+    }
+}
+
+#[test]
+fn it_converges_to_the_closed_form_with_second_order() {
+    let rig = TwoMassRig::new(RigParameters::default()).unwrap();
+    let motion = PrescribedMotion { amplitude: 2.0, angular_frequency: 0.9 };
+    let sampling = Sampling { interval: 0.1, t_end: 30.0 };
+    let exact = exact::PrescribedFlow::new(rig.chain(), motion).unwrap();
+    let reference = exact.trajectory(&start(1.8), sampling).unwrap();
+    let error = |step| {
+        let flow = PrescribedFlow::new(rig.chain(), motion, EngineSettings::default_for(step)).unwrap();
+        let tested = flow.trajectory(&start(1.8), sampling).unwrap();
+        assert_eq!(tested.switches(), reference.switches());
+        (step, max_state_error(&reference, &tested, 30.0).unwrap())
+    };
+    let order = observed_order(&[error(0.1), error(0.05), error(0.025), error(0.0125), error(0.00625)]).unwrap();
+    // Extremes fall anywhere between samples; only the worst of nine counts.
+    assert!((order.slope - 2.0).abs() < 0.3, "{order:?}");
 }
