@@ -22,6 +22,8 @@ const SAMPLES: [Vec2; 4] =
 pub(super) struct Tile {
     depth: Vec<Vec4>,
     triangle: Vec<Vec4>,
+    /// No triangle touches the tile: the fields above are stale then.
+    is_empty: bool,
     origin: Vec2,
     /// Of the row that is being lit.
     fragments: Vec<Fragment>,
@@ -34,6 +36,7 @@ impl Default for Tile {
         Self {
             depth: vec![Vec4::ZERO; pixels],
             triangle: vec![NOTHING; pixels],
+            is_empty: true,
             origin: Vec2::ZERO,
             fragments: Vec::new(),
             light: vec![Vec3::ZERO; TILE_WIDTH],
@@ -80,8 +83,11 @@ fn edge(p: Vec2, q: Vec2, origin: Vec2) -> (Ramp, Vec4) {
 impl Tile {
     /// Finds the nearest of `members` at every sample of the tile in the given column and row of tiles.
     pub fn find_visible(&mut self, projected: &Projected, members: &[u32], [column, row]: [usize; 2]) {
-        self.depth.fill(Vec4::ZERO);
-        self.triangle.fill(NOTHING);
+        self.is_empty = members.is_empty();
+        if !self.is_empty {
+            self.depth.fill(Vec4::ZERO);
+            self.triangle.fill(NOTHING);
+        }
         self.origin = Vec2::new((column * TILE_WIDTH) as f32, (row * TILE_HEIGHT) as f32);
         for &index in members {
             self.cover(&projected.triangles[index as usize], index);
@@ -120,9 +126,13 @@ impl Tile {
         let left = self.origin.x as usize * 4;
         let width = TILE_WIDTH.min((row_bytes - left) / 4);
         for (y, backdrop) in backdrop.iter().enumerate().take(rows.len() / row_bytes) {
+            let row = &mut rows[y * row_bytes + left..][..width * 4];
+            if self.is_empty {
+                row.chunks_exact_mut(4).for_each(|pixel| pixel.copy_from_slice(&backdrop.bytes));
+                continue;
+            }
             self.list_fragments(y, width, backdrop.light);
             self.light_fragments(frame, backdrop.light);
-            let row = &mut rows[y * row_bytes + left..][..width * 4];
             for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
                 let empty = self.triangle[y * TILE_WIDTH + x] == NOTHING;
                 pixel.copy_from_slice(&if empty { backdrop.bytes } else { bytes(self.light[x]) });
