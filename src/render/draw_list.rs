@@ -55,7 +55,7 @@ pub struct Camera {
     /// Full vertical angle, rad.
     pub vertical_field_of_view: f32,
     /// Part of the picture the scene is centred in, as fractions `[left, top, right, bottom]` of the whole: `[0, 0, 1, 1]` for all of
-    /// it. The scene is still drawn everywhere; panels may cover the rest.
+    /// it. The field of view spans its height. The scene is still drawn everywhere; panels may cover the rest.
     pub viewport: [f32; 4],
 }
 
@@ -65,10 +65,11 @@ pub struct Light {
     /// From the scene towards the light, any length.
     pub direction: Vec3,
     pub colour: Colour,
+    /// What a white matt surface that faces the light sends back of it: about 1.
     pub intensity: f32,
     pub sky: Colour,
     pub ground: Colour,
-    /// Sphere that must receive shadows.
+    /// Sphere that must receive shadows. Surfaces farther from its centre than its radius fade into the backdrop, and are gone at 2.6 radii.
     pub shadow_centre: Vec3,
     pub shadow_radius: f32,
 }
@@ -85,6 +86,7 @@ pub struct Object {
 /// Simple physically motivated material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
+    /// Its alpha plays no part: objects are opaque.
     pub colour: Colour,
     /// 0 mirror-like to 1 dull.
     pub roughness: f32,
@@ -94,7 +96,7 @@ pub struct Material {
     pub glow: f32,
 }
 
-/// Triangles with smooth normals, counter-clockwise seen from outside.
+/// Triangles with smooth normals, counter-clockwise seen from outside; they do not show from behind.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
     pub positions: Vec<Vec3>,
@@ -124,7 +126,8 @@ pub struct Stroke {
     pub colour: Colour,
 }
 
-/// Flat vector graphics.
+/// Flat vector graphics. Pixel centres lie at half coordinates: a vertical line one pixel wide is crisp at x = n + 0.5, a box at whole
+/// coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OverlayItem {
     Box {

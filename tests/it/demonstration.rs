@@ -1,7 +1,8 @@
-//! A scene that looks like the rig, for pictures and timings: shapes and colours only, no physics.
+//! A scene that looks like the rig, for pictures and timings: shapes and colours only, no physics. Its objects use no function that differs between
+//! platforms, so that their picture is the same everywhere.
 
-use glam::{Affine3A, Quat, Vec2, Vec3};
-use std::f32::consts::{FRAC_PI_2, TAU};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
+use std::f32::consts::TAU;
 use std::sync::Arc;
 use stickslip::render::shapes::{Coil, arrow, block, coil, cylinder, floor, sphere, tube};
 use stickslip::render::{
@@ -51,7 +52,7 @@ pub fn picture(size: [u32; 2], phase: f32) -> DrawList {
 
 fn rig(phase: f32) -> Vec<Object> {
     let mut rig = Rig { objects: Vec::new() };
-    let [first, second] = [-0.28 + 0.05 * phase.sin(), 0.3 + 0.06 * (phase - 0.9).sin()];
+    let [first, second] = [-0.28 + 0.05 * swing(phase), 0.3 + 0.06 * swing(phase - 0.9)];
     rig.add(floor(8.0, 8.0), Vec3::ZERO, FLOOR);
     rig.objects[0].casts_shadow = false;
     // Bed, rail and end stops.
@@ -76,8 +77,16 @@ fn rig(phase: f32) -> Vec<Object> {
     rig.add(block(Vec3::new(0.02, 0.012, 0.11), 0.004), Vec3::new(first, 0.13, 0.23), DARK_STEEL);
     rig.add(block(Vec3::new(0.012, 0.035, 0.02), 0.003), Vec3::new(first, 0.11, 0.32), DARK_STEEL);
     rig.coil(first + 0.012, slider - 0.045, Vec3::new(0.0, 0.092, 0.32), [0.022, 0.0032, 9.0], BRASS);
-    rig.arrow(first, 0.16 * phase.cos());
+    rig.arrow(first, 0.16 * swing(phase + 1.57));
     rig.objects
+}
+
+/// Something like a sine, of arithmetic alone: Bhaskara's formula.
+fn swing(phase: f32) -> f32 {
+    let turn = (phase / TAU).rem_euclid(1.0);
+    let (half, sign) = if turn < 0.5 { (2.0 * turn, 1.0) } else { (2.0 * turn - 1.0, -1.0) };
+    let hump = half * (1.0 - half);
+    sign * 16.0 * hump / (5.0 - 4.0 * hump)
 }
 
 struct Rig {
@@ -98,8 +107,8 @@ impl Rig {
         self.add(block(Vec3::new(0.085, 0.012, 0.1), 0.004), Vec3::new(x, 0.07, 0.0), DARK_STEEL);
         self.add(block(Vec3::new(0.05, 0.008, 0.06), 0.003), Vec3::new(x, 0.212, 0.0), STEEL);
         for (dx, dz) in [(-0.075, -0.085), (0.075, -0.085), (-0.075, 0.085), (0.075, 0.085)] {
-            let upright =
-                Affine3A::from_rotation_translation(Quat::from_rotation_z(FRAC_PI_2), Vec3::new(x + dx, 0.2, dz));
+            let turned = Mat3::from_cols(Vec3::Y, Vec3::NEG_X, Vec3::Z);
+            let upright = Affine3A::from_mat3_translation(turned, Vec3::new(x + dx, 0.2, dz));
             self.place(cylinder(0.01, 0.008, 0.002, 12), upright, STEEL);
         }
     }
@@ -127,8 +136,9 @@ impl Rig {
     }
 
     fn arrow(&mut self, x: f32, length: f32) {
-        let turn = if length < 0.0 { Quat::from_rotation_y(std::f32::consts::PI) } else { Quat::IDENTITY };
-        let place = Affine3A::from_rotation_translation(turn, Vec3::new(x, 0.27, 0.0));
+        let sign = if length < 0.0 { -1.0 } else { 1.0 };
+        let turn = Mat3::from_diagonal(Vec3::new(sign, 1.0, sign));
+        let place = Affine3A::from_mat3_translation(turn, Vec3::new(x, 0.27, 0.0));
         let glow = Material { glow: 0.35, ..material(0xe0_38_3e, 0.5, 0.0) };
         self.place(arrow(length.abs().max(0.05), 0.008, 0.045, 0.02, 20), place, glow);
         self.place(sphere(0.012, 20), place, glow);

@@ -3,6 +3,7 @@
 //! A frame passes through four stages: the shadow map is drawn; triangles are projected and sorted into tiles; every tile finds the nearest triangle
 //! at four samples a pixel; every pixel is lit once for each triangle it shows, tone mapped, averaged over its samples and encoded.
 
+mod bins;
 mod lanes;
 mod shade;
 mod shadow;
@@ -16,13 +17,14 @@ use super::overlay::Overlay;
 use super::portable::decode;
 use super::renderer::{AdapterInfo, DrawTimes, Renderer};
 use super::view::{LightView, camera_matrix, check_size};
+use bins::{TILE_HEIGHT, TileBins};
 use glam::Vec3;
 use image::RgbaImage;
 use rayon::prelude::*;
 use shade::Lighting;
 use shadow::ShadowMap;
 use std::time::Instant;
-use tile::{Frame, TILE_HEIGHT, Tile, TileBins};
+use tile::{Frame, Tile};
 use triangles::Projected;
 
 /// Largest side of a picture.

@@ -45,6 +45,10 @@ impl ShadowMap {
         }
         let chunks = self.height.par_chunks_mut(SIZE * BLOCK).zip(self.blocks.par_chunks_mut(BLOCKS));
         chunks.zip(bands).enumerate().for_each(|(band, ((texels, blocks), triangles))| {
+            // Nothing before, nothing now: most bands around a long and narrow scene.
+            if triangles.is_empty() && blocks.iter().all(|block| block[1] == f32::NEG_INFINITY) {
+                return;
+            }
             texels.fill(f32::NEG_INFINITY);
             triangles.iter().for_each(|corners| raise(texels, band * BLOCK, corners));
             for (column, block) in blocks.iter_mut().enumerate() {

@@ -5,6 +5,7 @@
 //! twice or lost. Coefficients are formed in f64 relative to the tile's corner; within the tile f32 is ample.
 
 use super::BackdropRow;
+use super::bins::{TILE_HEIGHT, TILE_WIDTH};
 use super::lanes::Lanes3;
 use super::shade::{Lighting, Points};
 use super::triangles::{Projected, ScreenTriangle};
@@ -12,50 +13,17 @@ use crate::render::geometry::Surface;
 use crate::render::portable::encode;
 use glam::{BVec4A, Vec2, Vec3, Vec4};
 
-pub(super) const TILE_WIDTH: usize = 32;
-pub(super) const TILE_HEIGHT: usize = 16;
-
 /// The usual four samples: each alone in its row and column of a 4 x 4 grid, their mean the pixel's centre.
 const SAMPLES: [Vec2; 4] =
     [Vec2::new(0.375, 0.125), Vec2::new(0.875, 0.375), Vec2::new(0.125, 0.625), Vec2::new(0.625, 0.875)];
-
-/// Which triangles touch which tile.
-#[derive(Debug, Default)]
-pub(super) struct TileBins {
-    columns: usize,
-    members: Vec<Vec<u32>>,
-}
-
-impl TileBins {
-    pub fn sort(&mut self, triangles: &[ScreenTriangle], [width, height]: [u32; 2]) {
-        let rows = (height as usize).div_ceil(TILE_HEIGHT);
-        self.columns = (width as usize).div_ceil(TILE_WIDTH);
-        self.members.iter_mut().for_each(Vec::clear);
-        self.members.resize_with(self.columns * rows, Vec::new);
-        for (index, triangle) in triangles.iter().enumerate() {
-            let [a, b, c] = triangle.corners;
-            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-            // Float to integer conversion saturates: what lies outside lands in the outermost tiles.
-            let tile = |place: f32, side: usize, count: usize| ((place as usize) / side).min(count - 1);
-            for row in tile(low.y, TILE_HEIGHT, rows)..=tile(high.y, TILE_HEIGHT, rows) {
-                for column in tile(low.x, TILE_WIDTH, self.columns)..=tile(high.x, TILE_WIDTH, self.columns) {
-                    self.members[row * self.columns + column].push(index as u32);
-                }
-            }
-        }
-    }
-
-    /// Tiles of one band of rows, from left to right.
-    pub fn band(&self, band: usize) -> impl Iterator<Item = &[u32]> {
-        self.members[band * self.columns..(band + 1) * self.columns].iter().map(Vec::as_slice)
-    }
-}
 
 /// Nearest triangle at each sample. Triangles are numbered in f32, exact up to 16 million, so that one selection serves all four samples.
 #[derive(Debug)]
 pub(super) struct Tile {
     depth: Vec<Vec4>,
     triangle: Vec<Vec4>,
+    /// No triangle touches the tile: the fields above are stale then.
+    is_empty: bool,
     origin: Vec2,
     /// Of the row that is being lit.
     fragments: Vec<Fragment>,
@@ -68,6 +36,7 @@ impl Default for Tile {
         Self {
             depth: vec![Vec4::ZERO; pixels],
             triangle: vec![NOTHING; pixels],
+            is_empty: true,
             origin: Vec2::ZERO,
             fragments: Vec::new(),
             light: vec![Vec3::ZERO; TILE_WIDTH],
@@ -114,8 +83,11 @@ fn edge(p: Vec2, q: Vec2, origin: Vec2) -> (Ramp, Vec4) {
 impl Tile {
     /// Finds the nearest of `members` at every sample of the tile in the given column and row of tiles.
     pub fn find_visible(&mut self, projected: &Projected, members: &[u32], [column, row]: [usize; 2]) {
-        self.depth.fill(Vec4::ZERO);
-        self.triangle.fill(NOTHING);
+        self.is_empty = members.is_empty();
+        if !self.is_empty {
+            self.depth.fill(Vec4::ZERO);
+            self.triangle.fill(NOTHING);
+        }
         self.origin = Vec2::new((column * TILE_WIDTH) as f32, (row * TILE_HEIGHT) as f32);
         for &index in members {
             self.cover(&projected.triangles[index as usize], index);
@@ -154,9 +126,13 @@ impl Tile {
         let left = self.origin.x as usize * 4;
         let width = TILE_WIDTH.min((row_bytes - left) / 4);
         for (y, backdrop) in backdrop.iter().enumerate().take(rows.len() / row_bytes) {
+            let row = &mut rows[y * row_bytes + left..][..width * 4];
+            if self.is_empty {
+                row.chunks_exact_mut(4).for_each(|pixel| pixel.copy_from_slice(&backdrop.bytes));
+                continue;
+            }
             self.list_fragments(y, width, backdrop.light);
             self.light_fragments(frame, backdrop.light);
-            let row = &mut rows[y * row_bytes + left..][..width * 4];
             for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
                 let empty = self.triangle[y * TILE_WIDTH + x] == NOTHING;
                 pixel.copy_from_slice(&if empty { backdrop.bytes } else { bytes(self.light[x]) });

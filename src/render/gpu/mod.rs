@@ -3,20 +3,21 @@
 //! One pass draws the shadow map, one the picture with four samples a pixel; it is read back, and the overlay is blended on the CPU.
 
 mod adapter;
+mod numbers;
 mod pipelines;
 mod targets;
 mod trial;
 
 use super::draw_list::DrawList;
-use super::geometry::{Geometry, linear};
+use super::geometry::Geometry;
 use super::overlay::Overlay;
 use super::renderer::{AdapterInfo, DrawTimes, Renderer};
 use super::view::{LightView, SHADOW_SIZE, camera_matrix, check_size};
 use super::{RenderError, RendererChoice};
 use adapter::{Candidate, backend_name, candidates, wanted};
-use glam::{Vec3, Vec4};
 use image::RgbaImage;
-use pipelines::{DEPTH, Pipelines, VERTEX_FLOATS};
+use numbers::{FRAME_BYTES, LIGHT_BYTES, frame_numbers, light_numbers, vertex_numbers};
+use pipelines::{DEPTH, Pipelines};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use targets::{Targets, texture, view};
@@ -26,10 +27,6 @@ use wgpu::{
     RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, SamplerDescriptor, StoreOp,
     TextureUsages, TextureView,
 };
-
-/// Bytes of the uniform `Frame` in `scene.wgsl`, and of `Light` in `shadow.wgsl`.
-const FRAME_BYTES: u64 = (16 + 11 * 4) * 4;
-const LIGHT_BYTES: u64 = 4 * 4 * 4;
 
 /// Draws on a graphics adapter.
 #[derive(Debug)]
@@ -148,8 +145,7 @@ impl GpuRenderer {
         let view = LightView::new(&list.light)?;
         let numbers: Vec<f32> = geometry.vertices.iter().flat_map(|vertex| vertex_numbers(geometry, vertex)).collect();
         let light = light_numbers(&view);
-        let mut frame = camera.to_cols_array().to_vec();
-        frame.extend(frame_numbers(list, &view, &light));
+        let frame = frame_numbers(list, &camera, &view);
         let indices = bytemuck::cast_slice(&geometry.triangles);
         let numbers = bytemuck::cast_slice(&numbers);
         fit(&self.device, &mut self.vertices, numbers.len(), BufferUsages::VERTEX);
@@ -257,28 +253,4 @@ fn depth_attachment(view: &TextureView, store: StoreOp) -> RenderPassDepthStenci
         depth_ops: Some(Operations { load: LoadOp::Clear(0.0), store }),
         stencil_ops: None,
     }
-}
-
-fn vertex_numbers(geometry: &Geometry, vertex: &super::geometry::Vertex) -> [f32; VERTEX_FLOATS] {
-    let (p, n, surface) = (vertex.position, vertex.normal, &geometry.surfaces[vertex.surface as usize]);
-    let c = surface.colour;
-    [p.x, p.y, p.z, n.x, n.y, n.z, c.x, c.y, c.z, surface.roughness, surface.metallic, surface.glow]
-}
-
-/// The fields of `Light` in `shadow.wgsl`.
-fn light_numbers(view: &LightView) -> [Vec4; 4] {
-    let [u, v, towards] = view.axes.map(|axis| axis.extend(0.0));
-    [view.centre.extend(view.radius), u, v, towards]
-}
-
-/// The fields of `Frame` in `scene.wgsl` after the camera.
-fn frame_numbers(list: &DrawList, view: &LightView, light: &[Vec4; 4]) -> Vec<f32> {
-    let (sun, background) = (&list.light, &list.background);
-    let colour = |colour: super::Colour, factor: f32| (linear(colour.0) * factor).extend(0.0);
-    let code = |colour: super::Colour| Vec3::from_array([0, 1, 2].map(|i| f32::from(colour.0[i]) / 255.0)).extend(1.0);
-    let size = Vec4::new(list.size[0] as f32, list.size[1] as f32, view.texel, SHADOW_SIZE as f32);
-    let head =
-        [list.camera.eye.extend(1.0), colour(sun.colour, sun.intensity), colour(sun.sky, 1.0), colour(sun.ground, 1.0)];
-    let tail = [code(background.top), code(background.bottom), size];
-    head.into_iter().chain(*light).chain(tail).flat_map(|row| row.to_array()).collect()
 }
