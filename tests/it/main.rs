@@ -1,5 +1,7 @@
 //! Integration tests: one binary, a file per concern.
 
+#[cfg(feature = "render")]
+mod back_ends;
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
@@ -24,6 +26,8 @@ mod layering;
 #[cfg(feature = "engine")]
 mod numerical_damping;
 #[cfg(feature = "render")]
+mod overlays;
+#[cfg(feature = "render")]
 mod pictures;
 mod prescribed;
 mod reference_trajectory;
@@ -31,5 +35,7 @@ mod scenes;
 #[cfg(feature = "render")]
 mod shaders;
 mod small_disk;
+#[cfg(feature = "render")]
+mod small_scene;
 mod store;
 mod symmetry;
