@@ -44,6 +44,16 @@ fn parse_frames(text: &str) -> Result<Range<u64>, String> {
     }
 }
 
+impl DrawArgs {
+    /// Refuses frames beyond a film of `count`. Asked once before anything is written, and again of the motion, which may have ended
+    /// early.
+    pub fn check(&self, count: u64) -> anyhow::Result<()> {
+        let Some(Range { start, end }) = self.frames else { return Ok(()) };
+        ensure!(end <= count, "--frames {start}:{end} is beyond the film: it has {count} frames");
+        Ok(())
+    }
+}
+
 impl RendererName {
     fn choice(self) -> RendererChoice {
         match self {
@@ -84,10 +94,7 @@ pub fn make(
 ) -> anyhow::Result<Made> {
     let motion = Motion::new(trajectory).context("the motion is not one of two masses and one slider")?;
     let source = Source(Stage::new(case.clone(), motion));
-    if let Some(frames) = &args.frames {
-        let count = source.count();
-        ensure!(frames.end <= count, "--frames {}:{} is beyond the film: it has {count} frames", frames.start, frames.end);
-    }
+    args.check(source.count())?;
     let mut renderer = crate::render::open(args.renderer.choice())?;
     let adapter = renderer.info().clone();
     progress.say(&format!("renderer: {} ({}): {}", adapter.adapter, adapter.backend, adapter.reason));

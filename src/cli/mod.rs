@@ -17,7 +17,12 @@ use tracing_subscriber::EnvFilter;
 
 /// Self-excited, friction-damped oscillators: exact solution, Rapier simulation, cross-check and film.
 #[derive(Debug, Parser)]
-#[command(name = "stickslip", version, max_term_width = 110, after_help = "Example:\n  stickslip run        the main job with the built-in scene, into renders/limit_torus")]
+#[command(
+    name = "stickslip",
+    version,
+    max_term_width = 110,
+    after_help = "Example:\n  stickslip run        the main job with the built-in scene, into renders/limit_torus"
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -82,7 +82,9 @@ pub fn exactly(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result
     let rig = TwoMassRig::new(case.parameters)?;
     Ok(match case.prescribed {
         Some(motion) => exact::PrescribedFlow::new(rig.chain(), motion)?.trajectory(start, sampling)?,
-        None => exact::TwoMassFlow::new(&rig).with_amplitude_bound(case.amplitude_bound)?.trajectory(start, sampling)?,
+        None => {
+            exact::TwoMassFlow::new(&rig).with_amplitude_bound(case.amplitude_bound)?.trajectory(start, sampling)?
+        }
     })
 }
 

@@ -52,12 +52,15 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         Some(path) => args.stored(path)?,
         None => args.computed()?,
     };
-    let directory = args
-        .common
-        .output
-        .clone()
-        .unwrap_or_else(|| default_directory(args.scene.as_deref().or(args.trajectory.as_deref())));
-    let solver = if args.solver == Solver::Exact { "exact" } else { "rapier" };
+    args.draw.check(case.frame_count())?;
+    let solver = match (&args.trajectory, args.solver) {
+        (Some(_), _) => "stored",
+        (None, Solver::Exact) => "exact",
+        (None, Solver::Rapier) => "rapier",
+    };
+    let input = args.scene.as_deref().or(args.trajectory.as_deref());
+    // The plain name belongs to `run`.
+    let directory = args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{solver}")));
     let parameters = json!({ "case": case, "with": solver, "trajectory": args.trajectory });
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;

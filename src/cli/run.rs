@@ -38,19 +38,20 @@ pub struct RunArgs {
     common: Common,
 }
 
-/// `renders/` and the name of the input.
-pub fn default_directory(input: Option<&Path>) -> PathBuf {
-    let name = input.and_then(Path::file_stem).unwrap_or("limit_torus".as_ref());
-    Path::new("renders").join(name)
+/// `renders/` and the name of the input with a suffix.
+pub fn default_directory(input: Option<&Path>, suffix: &str) -> PathBuf {
+    let name = input.and_then(Path::file_stem).map_or("limit_torus".into(), |stem| stem.to_string_lossy());
+    Path::new("renders").join(format!("{name}{suffix}"))
 }
 
 pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
     let mut progress = Progress::new(args.common.quiet);
     let case = args.case()?;
+    args.draw.check(case.frame_count())?;
     let sampling = motions::film_sampling(&case);
     let settings = motions::engine_settings(&case, sampling);
     let parameters = json!({ "case": case, "engine": settings, "sampling": sampling });
-    let directory = args.common.output.clone().unwrap_or_else(|| default_directory(args.scene.as_deref()));
+    let directory = args.common.output.clone().unwrap_or_else(|| default_directory(args.scene.as_deref(), ""));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("run", parameters.clone()), existing)?;
 
@@ -151,4 +152,3 @@ fn conclusion(agreement: &Agreement, made: &Made, directory: &Path) -> String {
     lines.push(made.report.film.as_deref().unwrap_or(directory).display().to_string());
     lines.join("\n")
 }
-

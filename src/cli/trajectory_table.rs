@@ -82,13 +82,8 @@ pub fn from_table(table: &Table) -> anyhow::Result<(Case, Trajectory)> {
         .enumerate()
         .map(|(row, word)| {
             let at = |column: usize| columns[column][row];
-            let works = Works {
-                damping: at(7),
-                self_excitation: at(8),
-                friction: at(9),
-                drive: at(10),
-                ..Works::default()
-            };
+            let works =
+                Works { damping: at(7), self_excitation: at(8), friction: at(9), drive: at(10), ..Works::default() };
             Ok(Sample {
                 time: at(0),
                 state: State::two_mass(std::array::from_fn(|i| at(i + 1))),

@@ -58,9 +58,16 @@ fn bad_options_are_refused() {
     refused(&["simulate", "--initial", "0,0,0,0,1.5"], &["1.5", "slip force"]);
     refused(&["simulate", "--initial", "0,0,0"], &["five numbers"]);
     refused(&["simulate", "--units", "si"], &["rig_si"]);
-    refused(&["run", "--frames=-3:5"], &["--frames"]);
-    refused(&["run", "--frames", "5:3"], &["A smaller than B"]);
-    refused(&["render", "--frames", "0:1000000"], &["beyond the film"]);
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("never");
+    for frames in [
+        ["run", "--frames=-3:5", "--frames"],
+        ["run", "--frames=5:3", "A smaller than B"],
+        ["render", "--frames=0:1000000", "beyond the film"],
+    ] {
+        refused(&[frames[0], frames[1], "-o", output.to_str().unwrap()], &[frames[2]]);
+        assert!(!output.exists(), "bad input left something behind");
+    }
     refused(&["simulate", "-o", "out.xyz"], &["out.xyz"]);
 }
 
@@ -140,9 +147,7 @@ fn an_si_scene_gives_tables_in_si_units() {
     let scene = scene_file(folder.path(), text);
     let table = folder.path().join("t.csv");
     let table = table.to_str().unwrap();
-    let json = document(&[
-        "simulate", "--scene", &scene, "--sample", "0.01", "--units", "si", "-o", table, "--json",
-    ]);
+    let json = document(&["simulate", "--scene", &scene, "--sample", "0.01", "--units", "si", "-o", table, "--json"]);
     let written = stickslip::store::read_table(Path::new(table)).unwrap();
     let column = |name: &str| match &written.column(name).unwrap().values {
         stickslip::store::ColumnData::F64(values) => values.clone(),
@@ -162,7 +167,18 @@ fn run_checks_films_and_resumes() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("run");
     let args = [
-        "run", "--t-end", "8", "--size", "128x72", "--fps", "5", "--renderer", "cpu", "-o", output.to_str().unwrap(), "--json",
+        "run",
+        "--t-end",
+        "8",
+        "--size",
+        "128x72",
+        "--fps",
+        "5",
+        "--renderer",
+        "cpu",
+        "-o",
+        output.to_str().unwrap(),
+        "--json",
         "-q",
     ];
     let json = document(&args);
@@ -190,8 +206,25 @@ fn a_run_that_disagrees_with_the_exact_solution_exits_with_one() {
     let output = folder.path().join("coarse");
     // The engine's own defaults: the numerical damping they cause is no small error.
     let result = stickslip(&[
-        "run", "--scheme", "plain", "--dt", "0.016666666666666666", "--substeps", "4", "--t-end", "40", "--fps", "1",
-        "--size", "64x64", "--renderer", "cpu", "-o", output.to_str().unwrap(), "--json", "-q",
+        "run",
+        "--scheme",
+        "plain",
+        "--dt",
+        "0.016666666666666666",
+        "--substeps",
+        "4",
+        "--t-end",
+        "40",
+        "--fps",
+        "1",
+        "--size",
+        "64x64",
+        "--renderer",
+        "cpu",
+        "-o",
+        output.to_str().unwrap(),
+        "--json",
+        "-q",
     ]);
     assert_eq!(result.status.code(), Some(1));
     let json: Value = serde_json::from_slice(&result.stdout).unwrap();

@@ -17,10 +17,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("compare", &["model", "dynamics"]),
     ("stage", &["scene", "model", "dynamics", "render"]),
     ("film", &["render", "store"]),
-    (
-        "cli",
-        &["compare", "dynamics", "engine", "exact", "film", "model", "orbit", "render", "scene", "stage", "store"],
-    ),
+    ("cli", &["compare", "dynamics", "engine", "exact", "film", "model", "orbit", "render", "scene", "stage", "store"]),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {
@@ -48,7 +45,9 @@ fn imports(text: &str) -> Vec<String> {
 /// Every import that the table does not allow, as `file imports module`.
 fn offences(module: &str, file: &str, text: &str) -> Vec<String> {
     let table: BTreeMap<_, _> = ALLOWED.into_iter().collect();
-    let allowed = table.get(module).unwrap_or_else(|| panic!("module {module} is not in the table: add it with what it may import"));
+    let allowed = table
+        .get(module)
+        .unwrap_or_else(|| panic!("module {module} is not in the table: add it with what it may import"));
     imports(text)
         .into_iter()
         .filter(|name| name != module && table.contains_key(name.as_str()) && !allowed.contains(&name.as_str()))
