@@ -54,9 +54,14 @@ impl EngineFlow {
     }
 
     /// With other force laws in place of the chain's own ([`laws_of`]). The energy ledger still measures the works of the chain.
-    #[must_use]
-    pub fn with_laws(self, laws: Vec<Arc<dyn ForceLaw>>) -> Self {
-        Self { laws, ..self }
+    ///
+    /// # Errors
+    /// [`EngineError::Parameter`] if a law does not fit the chain.
+    pub fn with_laws(self, laws: Vec<Arc<dyn ForceLaw>>) -> Result<Self, EngineError> {
+        for law in &laws {
+            law.check(&self.chain)?;
+        }
+        Ok(Self { laws, ..self })
     }
 
     #[must_use]

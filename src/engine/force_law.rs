@@ -9,7 +9,7 @@
 //!
 //! Matrices may be non-symmetric. Laws have no memory: the slider forces f are part of the rig's state and handed to them.
 
-use crate::model::{JenkinsElement, OscillatorChain};
+use crate::model::{Attachment, JenkinsElement, OscillatorChain, ParameterError};
 use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -28,6 +28,14 @@ pub struct Known<'a> {
 
 /// A force on the carriages along their rail.
 pub trait ForceLaw: Debug + Send + Sync {
+    /// Does the law fit the chain it is to move?
+    ///
+    /// # Errors
+    /// [`ParameterError`] naming the size that does not fit.
+    fn check(&self, _chain: &OscillatorChain) -> Result<(), ParameterError> {
+        Ok(())
+    }
+
     /// Adds the forces of this law to `force`, length N.
     fn add_force(&self, known: &Known<'_>, force: &mut [f64]);
 
@@ -40,6 +48,10 @@ pub trait ForceLaw: Debug + Send + Sync {
 pub struct Springs(pub DMatrix<f64>);
 
 impl ForceLaw for Springs {
+    fn check(&self, chain: &OscillatorChain) -> Result<(), ParameterError> {
+        check_size("springs", &self.0, chain)
+    }
+
     fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
         subtract_product(&self.0, known.positions, force);
     }
@@ -50,6 +62,10 @@ impl ForceLaw for Springs {
 pub struct Dampers(pub DMatrix<f64>);
 
 impl ForceLaw for Dampers {
+    fn check(&self, chain: &OscillatorChain) -> Result<(), ParameterError> {
+        check_size("dampers", &self.0, chain)
+    }
+
     fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
         subtract_product(&self.0, known.velocities, force);
     }
@@ -60,6 +76,10 @@ impl ForceLaw for Dampers {
 pub struct SelfExcitation(pub DMatrix<f64>);
 
 impl ForceLaw for SelfExcitation {
+    fn check(&self, chain: &OscillatorChain) -> Result<(), ParameterError> {
+        check_size("self_excitation", &self.0, chain)
+    }
+
     fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
         subtract_product(&self.0, known.velocities, force);
     }
@@ -78,6 +98,25 @@ impl ForceLaw for SelfExcitation {
 pub struct JenkinsElements(pub Vec<JenkinsElement>);
 
 impl ForceLaw for JenkinsElements {
+    fn check(&self, chain: &OscillatorChain) -> Result<(), ParameterError> {
+        let (found, expected) = (self.0.len(), chain.sliders());
+        if found != expected {
+            let field = "jenkins".to_owned();
+            return Err(ParameterError::WrongLength { field, found, expected, per: "Jenkins element of the chain" });
+        }
+        let count = chain.oscillators();
+        let ends = |element: &JenkinsElement| match element.attachment {
+            Attachment::Ground(i) => i,
+            Attachment::Between(i, j) => i.max(j),
+        };
+        match self.0.iter().map(ends).position(|last| last >= count) {
+            Some(j) => {
+                Err(ParameterError::NoSuchOscillator { field: format!("jenkins[{j}]"), found: ends(&self.0[j]), count })
+            }
+            None => Ok(()),
+        }
+    }
+
     fn add_force(&self, known: &Known<'_>, force: &mut [f64]) {
         for (element, f) in self.0.iter().zip(known.slider_forces) {
             element.attachment.scatter(-element.slip_force * f, force);
@@ -108,20 +147,25 @@ pub fn laws_of(chain: &OscillatorChain) -> Vec<Arc<dyn ForceLaw>> {
     ]
 }
 
-/// `target -= matrix * values`.
-pub(super) fn subtract_product(matrix: &DMatrix<f64>, values: &[f64], target: &mut [f64]) {
-    let (rows, columns) = matrix.shape();
-    if values.len() == columns && target.len() == rows {
-        let values = DVectorView::from_slice(values, columns);
-        DVectorViewMut::from_slice(target, rows).gemv(-1.0, matrix, &values, 1.0);
+fn check_size(field: &str, matrix: &DMatrix<f64>, chain: &OscillatorChain) -> Result<(), ParameterError> {
+    let n = chain.oscillators();
+    if matrix.shape() == (n, n) {
+        return Ok(());
     }
+    let (found, expected) = (matrix.len(), n * n);
+    Err(ParameterError::WrongLength { field: field.to_owned(), found, expected, per: "pair of oscillators" })
+}
+
+/// `target -= matrix * values`, with sizes that fit (laws are checked before they are used).
+pub(super) fn subtract_product(matrix: &DMatrix<f64>, values: &[f64], target: &mut [f64]) {
+    let values = DVectorView::from_slice(values, values.len());
+    let rows = target.len();
+    DVectorViewMut::from_slice(target, rows).gemv(-1.0, matrix, &values, 1.0);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Attachment;
-
     #[test]
     fn the_slider_loads_slips_and_unloads_with_the_same_stiffness() {
         let element = JenkinsElement { attachment: Attachment::Ground(0), stiffness: 2.0, slip_force: 4.0 };
@@ -137,6 +181,17 @@ mod tests {
         let known = Known { time: 0.0, positions: &[4.0], velocities: &[0.0], slider_forces: &f };
         law.add_force(&known, &mut force);
         assert_eq!(force, [-2.0]);
+    }
+
+    #[test]
+    fn laws_of_another_chain_are_refused() {
+        let chain = crate::model::ChainBuilder::new(vec![1.0, 1.0]).build().unwrap();
+        let refused = |law: &dyn ForceLaw| law.check(&chain).unwrap_err().to_string();
+        assert!(refused(&Springs(DMatrix::zeros(3, 3))).contains("springs has 9 entries, expected 4"));
+        assert!(refused(&Dampers(DMatrix::zeros(1, 4))).contains("dampers"));
+        let element = JenkinsElement { attachment: Attachment::Ground(5), stiffness: 1.0, slip_force: 1.0 };
+        assert!(refused(&JenkinsElements(vec![element])).contains("jenkins has 1 entries, expected 0"));
+        assert!(laws_of(&chain).iter().all(|law| law.check(&chain).is_ok()));
     }
 
     #[test]

@@ -32,7 +32,7 @@ mod plant;
 mod prescribed;
 mod recorder;
 mod settings;
-#[allow(clippy::duplicate_mod, reason = "one source for both precisions; see world.rs")]
+#[expect(clippy::duplicate_mod, reason = "one source for both precisions; see world.rs")]
 mod single;
 mod work;
 

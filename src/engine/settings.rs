@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
-    /// `rapier3d`: poses, velocities and forces are rounded to f32.
+    /// `rapier3d`: poses, velocities and forces are rounded to f32. For the nominal two-mass rig over ten periods the state error stops
+    /// falling at about 1e-5, reached at 4096 steps a period (measured: 1.1e-4 at 1024, 1.0e-5 at 4096, 9.2e-6 at 16384; in f64
+    /// 1.1e-4, 5.5e-6, 3.6e-7). Choose double precision beyond.
     Single,
     /// `rapier3d-f64`.
     Double,
@@ -30,7 +32,9 @@ impl Precision {
 pub enum Joints {
     /// Six coordinates per carriage, five of them held by the constraint solver.
     Impulse,
-    /// One generalized coordinate per carriage.
+    /// One generalized coordinate per carriage: the same motion to rounding, and no drift. The velocity of a *body* on such a joint is the
+    /// one before the last substep; force laws that read it make the scheme first order (measured: 5.4e-3 instead of 5.5e-6 over ten
+    /// periods at 4096 steps). Here the generalized velocity is read.
     Multibody,
 }
 

@@ -38,7 +38,7 @@ impl World {
     pub(in crate::engine) fn new(blueprint: &Blueprint<'_>) -> Result<Self, EngineError> {
         let geometry = blueprint.geometry;
         let mut physics = PhysicsWorld {
-            gravity: Vector::new(0.0, -GRAVITY as Real, 0.0),
+            gravity: Vector::new(0.0, -narrow(GRAVITY), 0.0),
             integration_parameters: integration_parameters(&blueprint.settings)?,
             ..PhysicsWorld::default()
         };
@@ -103,10 +103,10 @@ impl World {
             multibody.forward_kinematics(bodies, true);
             let index = multibody.link(link).ok_or(refused)?.assembly_id();
             let mut displacement = vec![0.0; multibody.ndofs()];
-            displacement[index] = blueprint.positions[oscillator] as Real;
+            displacement[index] = narrow(blueprint.positions[oscillator]);
             multibody.apply_displacements(&displacement);
             multibody.damping_mut().fill(0.0);
-            multibody.generalized_velocity_mut()[index] = blueprint.velocities[oscillator] as Real;
+            multibody.generalized_velocity_mut()[index] = narrow(blueprint.velocities[oscillator]);
             multibody.forward_kinematics(bodies, true);
             multibody.update_rigid_bodies(bodies, true);
             self.carriages[oscillator].coordinate = Coordinate::Multibody { joint, index };
@@ -169,14 +169,14 @@ impl Plant for World {
             let body = &mut self.physics.bodies[carriage.body];
             // Forces stay on a body until they are taken off.
             body.reset_forces(false);
-            body.add_force(Vector::X * force as Real, true);
+            body.add_force(Vector::X * narrow(force), true);
         }
         self.step()
     }
 
     fn step_to(&mut self, positions: &[f64]) -> Result<(), Vec<String>> {
         for (&position, carriage) in positions.iter().zip(&self.carriages) {
-            let target = carriage.rest + Vector::X * position as Real;
+            let target = carriage.rest + Vector::X * narrow(position);
             self.physics.bodies[carriage.body].set_next_kinematic_translation(target);
         }
         self.step()
@@ -238,11 +238,19 @@ fn vector(field: &str, [x, y, z]: [f64; 3]) -> Result<Vector, EngineError> {
 }
 
 fn real(field: String, value: f64) -> Result<Real, EngineError> {
-    let rounded = value as Real;
+    let rounded = narrow(value);
     if rounded.is_finite() {
         return Ok(rounded);
     }
     Err(EngineError::NotRepresentable { field, found: value, precision: PRECISION })
+}
+
+#[allow(
+    clippy::unnecessary_cast,
+    reason = "in f32 this rounds, beyond its range to infinity, which Rapier quarantines"
+)]
+fn narrow(value: f64) -> Real {
+    value as Real
 }
 
 #[allow(clippy::useless_conversion, reason = "in f32 this widens")]

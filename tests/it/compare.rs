@@ -6,7 +6,8 @@ use std::sync::Arc;
 use stickslip::compare::{Agreement, CompareError, Expectation, Motion, compare, compare_flows, max_state_error};
 use stickslip::dynamics::{Flow, Sampling, State, Trajectory};
 use stickslip::engine::{
-    Dampers, EngineFlow, EngineSettings, ForceLaw, JenkinsElements, Known, Scheme, SelfExcitation, Springs, laws_of,
+    Dampers, EngineFlow, EngineSettings, ForceLaw, JenkinsElements, Known, Precision, Scheme, SelfExcitation, Springs,
+    laws_of,
 };
 use stickslip::exact::TwoMassFlow;
 use stickslip::model::{OscillatorChain, RigParameters, TwoMassRig};
@@ -60,6 +61,15 @@ fn the_engine_agrees_with_the_exact_motion() {
     }
 }
 
+#[test]
+fn single_precision_agrees_within_its_rounding() {
+    let rig = rig(-0.06);
+    let settings = EngineSettings { precision: Precision::Single, ..EngineSettings::default_for(STEP) };
+    let engine = EngineFlow::new(rig.chain(), settings).unwrap();
+    let expected = Expectation { unit_roundoff: 2f64.powi(-24), ..expected() };
+    assert!(judged(&rig, &engine, START, &expected).passed);
+}
+
 /// A slider that loads and slips, but keeps its force when the motion turns round.
 #[derive(Debug)]
 struct NoUnloading(JenkinsElements);
@@ -106,7 +116,7 @@ fn wrong_laws_fail() {
         ("damping 0.1 % off", slightly_off),
         ("no friction", frictionless),
     ] {
-        let engine = EngineFlow::new(chain, EngineSettings::default_for(STEP)).unwrap().with_laws(laws);
+        let engine = EngineFlow::new(chain, EngineSettings::default_for(STEP)).unwrap().with_laws(laws).unwrap();
         println!("{name}");
         let agreement = judged(&rig, &engine, START, &expected());
         let failed = failed(&agreement);
@@ -114,7 +124,7 @@ fn wrong_laws_fail() {
         assert!(failed.contains(&"energy_residual"), "{name}: the ledger of the rig must not close: {failed:?}");
     }
     // The right laws given by hand pass, so the failures are those of the laws.
-    let right = EngineFlow::new(chain, EngineSettings::default_for(STEP)).unwrap().with_laws(laws_of(chain));
+    let right = EngineFlow::new(chain, EngineSettings::default_for(STEP)).unwrap().with_laws(laws_of(chain)).unwrap();
     assert!(judged(&rig, &right, START, &expected()).passed);
 }
 
