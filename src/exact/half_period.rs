@@ -11,10 +11,11 @@
 //! because v1 = 0 there. Pi projects along the vector field F onto the section v1 = 0.
 
 use super::error::ExactError;
-use super::pattern::Pattern;
+use super::pattern::extended_matrix;
+use super::series::ORDER;
 use super::two_mass::TwoMassFlow;
 use crate::dynamics::{Event, EventKind, HalfPeriodMap, HalfReturn, ReversalPoint, State};
-use nalgebra::{DVector, Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix5, Vector3};
 
 /// Longest time for which the next reversal is waited for: 160 periods of the fundamental mode. A motion that sticks that
 /// long after a reversal decays without slip.
@@ -74,18 +75,28 @@ impl TwoMassFlow {
 
     fn derivative(&self, stick_time: f64, slip_time: f64, end: &State) -> Matrix3<f64> {
         let chain = self.rig().chain();
-        let [stick, slip] = [true, false].map(|sticking| Pattern::new(chain, &[sticking]));
+        let [stick, slip] = [(true, stick_time), (false, slip_time)].map(|(sticking, time)| {
+            let matrix = extended_matrix(chain, &[sticking]);
+            exponential(Matrix5::from_fn(|row, column| matrix[(row, column)] * time))
+        });
+        let mut saltation = Matrix5::identity();
+        saltation[(FORCE, FORCE)] = 0.0;
+        let tangent = slip * saltation * stick;
         let acceleration = chain.acceleration(&end.positions, &end.velocities, &end.slider_forces);
         let field = [0.0, end.velocities[1], acceleration[0], acceleration[1], 0.0];
-        let column = |place: usize| {
-            let mut perturbation = DVector::zeros(5);
-            perturbation[place] = 1.0;
-            let mut perturbation = stick.advanced(&perturbation, stick_time);
-            perturbation[FORCE] = 0.0;
-            let perturbation = slip.advanced(&perturbation, slip_time);
-            let delay = perturbation[V1] / field[V1];
-            Vector3::from(POINT.map(|place| -(perturbation[place] - field[place] * delay)))
-        };
-        Matrix3::from_columns(&POINT.map(column))
+        Matrix3::from_fn(|row, column| {
+            let delay = tangent[(V1, POINT[column])] / field[V1];
+            -(tangent[(POINT[row], POINT[column])] - field[POINT[row]] * delay)
+        })
     }
+}
+
+/// `exp(A)` by its series for `A/2^s` of norm at most 1/2, squared s times.
+fn exponential(matrix: Matrix5<f64>) -> Matrix5<f64> {
+    let norm = matrix.row_iter().map(|row| row.abs().sum()).fold(0.0, f64::max);
+    let squarings = (2.0 * norm).max(1.0).log2().ceil() as i32;
+    let scaled = matrix / 2.0_f64.powi(squarings);
+    // Horner's scheme; the first term left out is below (1/2)^17/17! = 2e-20.
+    let series = (1..=ORDER).rev().fold(Matrix5::identity(), |sum, k| Matrix5::identity() + scaled * sum / k as f64);
+    (0..squarings).fold(series, |power, _| power * power)
 }

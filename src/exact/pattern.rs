@@ -38,13 +38,6 @@ impl Pattern {
         }
         Expansion { terms }
     }
-
-    /// `exp(A t) y` for any time.
-    pub(super) fn advanced(&self, y: &DVector<f64>, time: f64) -> DVector<f64> {
-        let cells = (time / self.cell).ceil().max(1.0);
-        let step = time / cells;
-        (0..cells as u64).fold(y.clone(), |y, _| self.expand(&y).at(step))
-    }
 }
 
 /// Taylor terms `A^k y / k!`.
@@ -88,7 +81,8 @@ fn largest(coefficients: &[f64; ORDER + 1], span: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, q| if *q == 0.0 && sum == 0.0 { 0.0 } else { sum * span + q.abs() })
 }
 
-fn extended_matrix(chain: &OscillatorChain, sticking: &[bool]) -> DMatrix<f64> {
+/// The matrix `A` of the system, of size 2N + m for N oscillators and m elements.
+pub(super) fn extended_matrix(chain: &OscillatorChain, sticking: &[bool]) -> DMatrix<f64> {
     let (n, m) = (chain.oscillators(), chain.sliders());
     let mut matrix = DMatrix::zeros(2 * n + m, 2 * n + m);
     let damping = chain.total_damping();

@@ -27,40 +27,40 @@ pub(super) enum Law {
 /// A piece ready to be evaluated.
 pub(super) struct Evaluator<'a> {
     chain: &'a OscillatorChain,
-    piece: &'a Piece,
-    expansion: Option<Expansion>,
+    contacts: &'a [ContactState],
+    form: Form<'a>,
+}
+
+enum Form<'a> {
+    Modal { pair: &'a ModalPair, phase: &'a Phase },
+    Series { expansion: Expansion, cell: f64 },
 }
 
 impl Piece {
     pub(super) fn evaluator<'a>(&'a self, chain: &'a OscillatorChain) -> Evaluator<'a> {
-        let expansion = match &self.law {
-            Law::Modal { .. } => None,
-            Law::Series { pattern, start } => Some(pattern.expand(start)),
+        let form = match &self.law {
+            Law::Modal { pair, phase } => Form::Modal { pair, phase },
+            Law::Series { pattern, start } => Form::Series { expansion: pattern.expand(start), cell: pattern.cell },
         };
-        Evaluator { chain, piece: self, expansion }
-    }
-
-    /// Time over which the motion is smooth: one over its fastest rate.
-    fn smooth_span(&self) -> f64 {
-        match &self.law {
-            Law::Modal { pair, .. } => pair.smooth_span(),
-            Law::Series { pattern, .. } => pattern.cell,
-        }
+        Evaluator { chain, contacts: &self.contacts, form }
     }
 }
 
 impl Evaluator<'_> {
     /// State at a time since the start of the piece.
     pub(super) fn state(&self, time: f64) -> State {
-        match (&self.piece.law, &self.expansion) {
-            (Law::Modal { pair, phase }, _) => State::two_mass(pair.physical(phase, &pair.advanced(phase, time))),
-            (Law::Series { .. }, Some(expansion)) => self.split(&expansion.at(time)),
-            (Law::Series { pattern, start }, None) => self.split(&pattern.advanced(start, time)),
+        match &self.form {
+            Form::Modal { pair, phase } => State::two_mass(pair.physical(phase, &pair.advanced(phase, time))),
+            Form::Series { expansion, .. } => state_of(self.chain, &expansion.at(time)),
         }
     }
 
-    fn split(&self, y: &DVector<f64>) -> State {
-        state_of(self.chain, y)
+    /// Time over which the motion is smooth: one over its fastest rate.
+    fn smooth_span(&self) -> f64 {
+        match &self.form {
+            Form::Modal { pair, .. } => pair.smooth_span(),
+            Form::Series { cell, .. } => *cell,
+        }
     }
 
     /// Works done between two times since the start of the piece: damping, self-excitation and circulatory stiffness by
@@ -70,18 +70,16 @@ impl Evaluator<'_> {
         if to <= from {
             return works;
         }
-        integrate(from, to, self.piece.smooth_span(), |time, weight| {
+        integrate(from, to, self.smooth_span(), |time, weight| {
             let state = self.state(time);
             let powers = self.chain.powers(&state.positions, &state.velocities);
             works.damping += weight * powers.damping;
             works.self_excitation += weight * powers.self_excitation;
             works.circulatory += weight * powers.circulatory;
         });
-        if self.piece.contacts.iter().any(|contact| !contact.is_stick()) {
+        if self.contacts.iter().any(|contact| !contact.is_stick()) {
             let (before, after) = (self.state(from), self.state(to));
-            for (element, _) in
-                self.chain.jenkins().iter().zip(self.piece.contacts.iter()).filter(|(_, c)| !c.is_stick())
-            {
+            for (element, _) in self.chain.jenkins().iter().zip(self.contacts.iter()).filter(|(_, c)| !c.is_stick()) {
                 let elongation = |state: &State| element.attachment.elongation(&state.positions);
                 works.friction -= element.slip_force * (elongation(&after) - elongation(&before)).abs();
             }

@@ -1,6 +1,7 @@
 //! Event location: nothing missed, nothing invented, ties and touches as documented.
 
 use crate::independent::{Search, SlowRig, Switch, Y};
+use nalgebra::{Matrix5, Vector5};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use stickslip::dynamics::{Event, EventKind, Flow, Outcome, Sampling, State};
@@ -96,6 +97,27 @@ fn degenerate_parameters_are_solved_by_series() {
         let expected = SlowRig { p }.switches(start, T_END, Search::Certified);
         assert_same(&exact_switches(p, start), &expected, &format!("{p:?}"));
     }
+}
+
+#[test]
+fn a_double_crossing_between_ends_of_equal_slope_is_found() {
+    // f - 1 = c + k ((t - s)^3 - 3 w^2 (t - s)) for small t: a maximum of 7e-5 k at t = s - w = 0.02, then a fall and another rise.
+    // Ends 0.2 apart both lie below 1 with rising force, so neither signs nor slopes there show it.
+    let (k, s, w) = (0.05, 0.12, 0.1);
+    let c = -0.00193 * k;
+    let wanted = [1.0 + c + k * (3.0 * w * w * s - s * s * s), k * 3.0 * (s * s - w * w), -6.0 * k * s, 6.0 * k, 0.0];
+    let p = RigParameters::default();
+    let slow = SlowRig { p };
+    // The derivatives are linear in the state: solve for it.
+    let columns: Vec<Vector5<f64>> =
+        (0..5).map(|i| slow.force_derivatives(std::array::from_fn(|j| f64::from(u8::from(i == j)))).into()).collect();
+    let state = Matrix5::from_columns(&columns).try_inverse().unwrap() * Vector5::from(wanted);
+    let start: Y = state.into();
+    let expected = slow.switches(start, T_END, Search::Certified);
+    assert!(expected[0].kind == EventKind::StickToSlip && expected[0].time < 0.02, "{:?}", expected[0]);
+    assert_same(&exact_switches(p, start), &expected, "two-mass flow");
+    // Negative control: sampling at the ends of the first cell sees nothing there.
+    assert!(slow.switches(start, T_END, Search::Sampled(0.2))[0].time > 0.2);
 }
 
 /// Undamped in-phase motion `x1 = x2 = A sin t`, sticking, with `f = A sin t`.

@@ -5,7 +5,7 @@
 
 use diffsol::{NalgebraMat, OdeBuilder, OdeEquations, OdeSolverMethod, OdeSolverStopReason, Vector};
 use stickslip::dynamics::State;
-use stickslip::model::{ContactState, Direction, OscillatorChain};
+use stickslip::model::{Attachment, ContactState, Direction, OscillatorChain};
 
 type Matrix = NalgebraMat<f64>;
 
@@ -20,9 +20,9 @@ pub fn solve(chain: &OscillatorChain, initial: &State, t_end: f64, tolerance: f6
     };
     let mut parameters: Vec<f64> = initial.components().collect();
     parameters.extend(initial.initial_contacts(chain).iter().map(code));
+    let system = FlatSystem::new(chain);
     let rhs = |y: &[f64], p: &[f64], out: &mut [f64]| {
-        out[..n].copy_from_slice(&y[n..2 * n]);
-        out[n..2 * n].copy_from_slice(&chain.acceleration(&y[..n], &y[n..2 * n], &y[2 * n..]));
+        system.accelerations(y, out);
         for (j, element) in chain.jenkins().iter().enumerate() {
             let rate = element.normalised_stiffness() * element.attachment.elongation(&y[n..2 * n]);
             out[2 * n + j] = if p[size + j] == 0.0 { rate } else { 0.0 };
@@ -48,7 +48,7 @@ pub fn solve(chain: &OscillatorChain, initial: &State, t_end: f64, tolerance: f6
         .unwrap();
     let mut switches = 0;
     while problem.t0 < t_end {
-        let p = Vector::from_vec(parameters.clone(), problem.context().clone());
+        let p = Vector::from_vec(parameters.clone(), *problem.context());
         problem.eqn.set_params(&p);
         let (time, element) = {
             let mut solver = problem.tsit45().unwrap();
@@ -75,6 +75,47 @@ pub fn solve(chain: &OscillatorChain, initial: &State, t_end: f64, tolerance: f6
     }
     let [positions, velocities, slider_forces] = [0..n, n..2 * n, 2 * n..size].map(|range| parameters[range].to_vec());
     (State { positions, velocities, slider_forces }, switches)
+}
+
+/// The equation of motion without allocation, so that a comparison of speed is fair.
+struct FlatSystem<'a> {
+    chain: &'a OscillatorChain,
+    /// `-M^-1 K` and `-M^-1 (D + S)`, row by row.
+    stiffness: Vec<f64>,
+    damping: Vec<f64>,
+}
+
+impl<'a> FlatSystem<'a> {
+    fn new(chain: &'a OscillatorChain) -> Self {
+        let (n, damping) = (chain.oscillators(), chain.total_damping());
+        let rows = |entry: &dyn Fn(usize, usize) -> f64| {
+            (0..n * n).map(|k| -entry(k / n, k % n) / chain.mass()[k / n]).collect::<Vec<f64>>()
+        };
+        Self { chain, stiffness: rows(&|i, j| chain.stiffness()[(i, j)]), damping: rows(&|i, j| damping[(i, j)]) }
+    }
+
+    /// Writes `x' = v` and `v'` for `y = (x, v, f)`.
+    fn accelerations(&self, y: &[f64], out: &mut [f64]) {
+        let n = self.chain.oscillators();
+        for i in 0..n {
+            out[i] = y[n + i];
+            let row = i * n..(i + 1) * n;
+            let spring = self.stiffness[row.clone()].iter().zip(&y[..n]).map(|(k, x)| k * x).sum::<f64>();
+            let damper = self.damping[row].iter().zip(&y[n..2 * n]).map(|(d, v)| d * v).sum::<f64>();
+            out[n + i] = spring + damper;
+        }
+        for (element, f) in self.chain.jenkins().iter().zip(&y[2 * n..]) {
+            let force = element.slip_force * f;
+            let push = |i: usize, force: f64, out: &mut [f64]| out[n + i] -= force / self.chain.mass()[i];
+            match element.attachment {
+                Attachment::Ground(i) => push(i, force, out),
+                Attachment::Between(i, j) => {
+                    push(i, force, out);
+                    push(j, -force, out);
+                }
+            }
+        }
+    }
 }
 
 fn switch(parameters: &mut [f64], force: usize, code: usize) {

@@ -71,6 +71,16 @@ impl SlowRig {
         terms
     }
 
+    /// The force and its first four derivatives in time while sticking.
+    pub fn force_derivatives(&self, y: Y) -> Y {
+        let terms = self.expand(y, Contact::Stick);
+        let mut factorial = 1.0;
+        std::array::from_fn(|k| {
+            factorial *= k.max(1) as f64;
+            terms[k][4] * factorial
+        })
+    }
+
     fn curvature_bound(&self, y: Y, width: f64) -> f64 {
         let l = self.row_sum();
         let largest = y.iter().fold(0.0_f64, |m, c| m.max(c.abs())) * (l * width).exp();
