@@ -7,9 +7,9 @@
 //! so the motion of a phase is known in closed form and only the switching times need a root search. That search is
 //! certified: a bound on the curvature of the event function proves that no crossing is missed (`crossing`).
 //!
-//! - [`TwoMassFlow`]: the paper's rig in modal coordinates (`modal`, `modal_phase`, `scan`, `walk`), about 0.1 us per event.
+//! - [`TwoMassFlow`]: the paper's rig in modal coordinates (`modal`, `modal_phase`, `modal_root`, `scan`, `walk`), about 0.1 us per event.
 //! - [`ChainFlow`]: any chain, matrix exponential by series (`pattern`, `chain_walk`).
-//! - [`PrescribedFlow`]: hysteresis under a prescribed motion of oscillator 0 (`prescribed`).
+//! - [`PrescribedFlow`]: hysteresis under a prescribed motion of oscillator 0 (`prescribed`, `hysteresis`).
 //! - [`ExactTrajectory`]: the motion of either at any time, and its energy ledger (`piece`, `gauss`).
 //!
 //! Rules for events. A slip phase begins when |f| = 1 is exceeded, a stick phase when the sliding velocity changes its sign.
@@ -25,8 +25,10 @@ mod crossing;
 mod error;
 mod gauss;
 mod half_period;
+mod hysteresis;
 mod modal;
 mod modal_phase;
+mod modal_root;
 mod pattern;
 mod piece;
 mod prescribed;

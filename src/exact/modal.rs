@@ -14,6 +14,7 @@
 //! Not every parameter set has such coordinates. Overdamped and nearly repeated eigenvalues, and modes that mass 1 does
 //! not see, have `Modes::new` return `None`; the chain's series then takes over.
 
+use super::modal_root::{FINE, LOCAL};
 use super::series::{ORDER, Series};
 use nalgebra::{Complex, Matrix4, Vector4};
 
@@ -21,10 +22,6 @@ use nalgebra::{Complex, Matrix4, Vector4};
 const MOST_CELLS: usize = 64;
 /// Largest growth of a mode over a block, which its bounds have to allow for.
 const MOST_GROWTH: f64 = 2.0;
-/// Fine steps in a cell.
-const FINE: usize = 16;
-/// Highest power of the local polynomial around a fine node: |l| dt <= 1/128 there, the rest is below 1e-18.
-const LOCAL: usize = 6;
 /// Width of a cell times the fastest rate: small enough that few cells near a guard are doubtful, large enough that a phase
 /// has about ten.
 pub(super) const CELL_ANGLE: f64 = 0.25;
@@ -68,9 +65,9 @@ pub(super) struct Modes {
     /// Exponentials over 0, 1, ..., `cells` cells.
     pub(super) coarse: Vec<Modal>,
     /// Exponentials over 0, 1, ..., `FINE` fine steps.
-    fine: [Modal; FINE + 1],
+    pub(super) fine: [Modal; FINE + 1],
     /// `l^k / k!`.
-    powers: [Modal; LOCAL + 1],
+    pub(super) powers: [Modal; LOCAL + 1],
 }
 
 impl Coefficients {
@@ -174,47 +171,6 @@ impl Modes {
         2.0 * dot(c, &self.powers[2])
     }
 
-    /// Root of `q = level` in the cell that starts at `c`, given an estimate `guess` in `[0, cell]`: time and coordinates there.
-    /// `None` if Newton's iteration does not settle in the cell. The caller has proved that there is one root.
-    ///
-    /// The estimate is moved to the nearest fine node; from there Halley steps on a polynomial of degree `LOCAL` are exact to
-    /// rounding, and the first of them needs three dot products only.
-    #[inline]
-    pub(super) fn root(&self, c: &Modal, level: f64, guess: f64) -> Option<(f64, Modal)> {
-        let fine_step = self.cell / FINE as f64;
-        let mut time = guess;
-        for _ in 0..3 {
-            let node = (time / fine_step).round().clamp(0.0, FINE as f64);
-            let at_node = rotated(c, &self.fine[node as usize]);
-            let mut q = [0.0; LOCAL + 1];
-            for (q, power) in q.iter_mut().zip(&self.powers) {
-                *q = dot(&at_node, power);
-            }
-            q[0] -= level;
-            if let Some(delta) = local_root(&q, 0.75 * fine_step) {
-                return Some((node * fine_step + delta, rotated(&at_node, &self.local_exponential(delta))));
-            }
-            // The estimate was off by more than a fine step: move on from a Newton step.
-            time = node * fine_step - q[0] / q[1];
-            if !(0.0..=self.cell).contains(&time) {
-                return None;
-            }
-        }
-        None
-    }
-
-    /// `e^(l t)` for |t| of at most a fine step.
-    #[inline]
-    fn local_exponential(&self, t: f64) -> Modal {
-        let mut sum = self.powers[LOCAL];
-        for power in self.powers[..LOCAL].iter().rev() {
-            for (sum, power) in sum.iter_mut().zip(power) {
-                *sum = *sum * t + power;
-            }
-        }
-        sum
-    }
-
     /// Taylor coefficients of the event function over a cell, from `c`.
     pub(super) fn coefficients(&self, c: &Modal) -> [f64; ORDER + 1] {
         let mut terms = [Complex::new(c[0], c[1]), Complex::new(c[2], c[3])];
@@ -240,30 +196,6 @@ impl Modes {
         coefficients[0] += offset;
         Series::new(coefficients, self.cell, scale)
     }
-}
-
-/// Smallest root of a polynomial close to 0, at most `reach` away, by Halley's method.
-#[inline]
-fn local_root(q: &[f64; LOCAL + 1], reach: f64) -> Option<f64> {
-    let halley = |value: f64, slope: f64, half_curvature: f64| value * slope / (slope * slope - value * half_curvature);
-    let mut delta = -halley(q[0], q[1], q[2]);
-    for _ in 0..6 {
-        if delta.is_nan() || delta.abs() > reach {
-            return None;
-        }
-        let (mut value, mut slope) = (0.0, 0.0);
-        for &coefficient in q.iter().rev() {
-            slope = slope * delta + value;
-            value = value * delta + coefficient;
-        }
-        let step = halley(value, slope, q[2] + 3.0 * q[3] * delta);
-        delta -= step;
-        // The next step would be the cube of this one, relative to the cell.
-        if step.abs() < 1e-5 * reach {
-            return Some(delta);
-        }
-    }
-    None
 }
 
 #[inline]

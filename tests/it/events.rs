@@ -192,6 +192,8 @@ fn an_event_at_a_sample_time_is_shown_with_the_state_after_it() {
         assert_eq!(trajectory.events[0], event);
         assert!(sample.state.max_difference(&event.state) < 1e-15);
     }
+    // A span of zero has one sample.
+    assert_eq!(flow.trajectory(&start, Sampling { interval: 1.0, t_end: 0.0 }).unwrap().samples.len(), 1);
     // An instant earlier it has not happened.
     let before = flow.trajectory(&start, Sampling { interval: 1.0, t_end: event.time * (1.0 - 1e-15) }).unwrap();
     assert_eq!(before.events, []);
