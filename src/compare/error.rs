@@ -15,10 +15,6 @@ pub enum CompareError {
     Empty,
     #[error("horizon = {found} is not allowed: it must be greater than 0 and at most {last}, the last sample")]
     Horizon { found: f64, last: f64 },
-    #[error(
-        "{check}: the tolerance {tolerance} is more than {allowed}, a tenth of the motion, so that the check would prove nothing: shorten the horizon or the record, reduce the step, or compare averages"
-    )]
-    Toothless { check: &'static str, tolerance: f64, allowed: f64 },
     #[error("{field} = {found} is not allowed: it must be {allowed}")]
     OutOfRange { field: &'static str, found: f64, allowed: &'static str },
     #[error("an order needs at least {needed} different steps, found {found}: lengthen the ladder")]

@@ -21,5 +21,5 @@ pub use cycles::{Cycles, Maximum};
 pub use distance::{common_samples, max_state_error};
 pub use error::CompareError;
 pub use order::{ObservedOrder, observed_order};
-pub use tolerance::{Expectation, Motion, Tolerances};
+pub use tolerance::{Expectation, LARGEST_TOLERANCE, Motion, Tolerances};
 pub use verdict::{Agreement, Check, compare, compare_flows};

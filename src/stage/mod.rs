@@ -17,7 +17,7 @@ use crate::render::{Background, Camera, Colour, DrawList, Light, Rectangle};
 use crate::scene::Case;
 use glam::{Vec2, Vec3};
 use panels::Panels;
-use rig::RigModel;
+use rig::{Extremes, RigModel};
 
 /// Parts of the picture: the scene to the left of this fraction of its width, the plots to the right.
 const SCENE_WIDTH: f32 = 0.655;
@@ -44,8 +44,14 @@ pub struct Stage {
 impl Stage {
     #[must_use]
     pub fn new(case: Case, motion: Motion) -> Self {
-        let displacement = motion.largest(|i| i.positions[0]).max(motion.largest(|i| i.positions[1]));
-        let speed = motion.largest(|i| i.velocities[0]).max(motion.largest(|i| i.velocities[1]));
+        let either = |quantity: fn(&Instant) -> [f64; 2]| {
+            motion.largest(|i| quantity(i)[0]).max(motion.largest(|i| quantity(i)[1]))
+        };
+        let largest = Extremes {
+            displacement: either(|i| i.positions),
+            approach: motion.largest(|i| (i.positions[0] - i.positions[1]).max(0.0)),
+            speed: either(|i| i.velocities),
+        };
         let (width, height) = (case.film.width as f32, case.film.height as f32);
         let scale = height / 720.0;
         let column = Rectangle {
@@ -53,7 +59,7 @@ impl Stage {
             max: Vec2::new(width - BORDER * scale, height - BORDER * scale),
         };
         let panels = Panels::new(&motion, case.scales, column, scale);
-        let rig = RigModel::new(&case.parameters, displacement, speed);
+        let rig = RigModel::new(&case.parameters, largest);
         Self { case, motion, rig, panels }
     }
 

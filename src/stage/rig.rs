@@ -20,8 +20,9 @@ const POSTS: [f32; 2] = [-2.95, 2.6];
 /// Rest position and half edges of the slider block.
 const SLIDER_REST: f32 = -2.05;
 const SLIDER: Vec3 = Vec3::new(0.19, 0.13, 0.11);
-/// Largest magnified displacement.
+/// Largest magnified displacement, and largest approach of the carriages: more would drive the damper's barrel into mass 2.
 const ROOM: f32 = 0.5;
+const APPROACH: f32 = 0.72;
 /// Lines along which the elements act: height and depth.
 const GROUND_LINE: [f32; 2] = [HEIGHT + 0.09, -0.17];
 const COUPLING_LINE: [f32; 2] = [HEIGHT + 0.11, -0.14];
@@ -42,21 +43,31 @@ pub struct RigModel {
     arrow_per_velocity: f32,
 }
 
+/// Largest values over a film, non-dimensional.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremes {
+    pub displacement: f64,
+    /// Of mass 1 towards mass 2.
+    pub approach: f64,
+    pub speed: f64,
+}
+
 fn object(mesh: Arc<Mesh>, place: Vec3, material: Material) -> Object {
     Object { mesh, transform: Affine3A::from_translation(place), material, casts_shadow: true }
 }
 
 impl RigModel {
-    /// `largest` displacement and speed of the film, non-dimensional.
     #[must_use]
-    pub fn new(parameters: &RigParameters, largest_displacement: f64, largest_speed: f64) -> Self {
+    pub fn new(parameters: &RigParameters, largest: Extremes) -> Self {
+        let room = ROOM / (largest.displacement as f32).max(1.0);
+        let approach = APPROACH / (largest.approach as f32).max(0.1);
         let sign = if parameters.xi1 < 0.0 { 1.0 } else { -1.0 };
         Self {
             carriage: Arc::new(block(CARRIAGE, 0.035)),
             slider: Arc::new(block(SLIDER, 0.025)),
             fixed: fixed_parts(),
-            magnification: ROOM / (largest_displacement as f32).max(1.0),
-            arrow_per_velocity: sign * ARROW / (largest_speed as f32).max(0.1),
+            magnification: room.min(approach),
+            arrow_per_velocity: sign * ARROW / (largest.speed as f32).max(0.1),
         }
     }
 
@@ -96,7 +107,7 @@ impl RigModel {
                 let length = self.arrow_per_velocity * now.velocities[i] as f32;
                 (length.abs() > 0.04).then(|| {
                     let head = 0.16_f32.min(0.6 * length.abs());
-                    let mesh = Arc::new(arrow(length.abs(), 0.025, head, 0.07, 16));
+                    let mesh = Arc::new(arrow(length.abs(), 0.025_f32.min(0.4 * head), head, 0.44 * head, 16));
                     let turn = if length < 0.0 { Quat::from_rotation_y(std::f32::consts::PI) } else { Quat::IDENTITY };
                     let place = Vec3::new(x[i], HEIGHT + CARRIAGE.y + 0.17, 0.0);
                     let transform = Affine3A::from_rotation_translation(turn, place);
@@ -116,7 +127,7 @@ fn spring(from: f32, to: f32, [y, z]: [f32; 2], radius: f32, turns: f32) -> Obje
 /// Cylinder held by the left carriage, piston rod by the right one.
 fn damper(from: f32, to: f32) -> [Object; 2] {
     let [y, z] = DAMPER_LINE;
-    let barrel = 0.52 * (REST[1] - REST[0] - 2.0 * CARRIAGE.x);
+    let barrel = 0.44 * (REST[1] - REST[0] - 2.0 * CARRIAGE.x);
     let rod = (to - from - 0.3 * barrel).max(0.05);
     [
         object(Arc::new(cylinder(barrel, 0.085, 0.015, 28)), Vec3::new(from, y, z), palette::DAMPER),

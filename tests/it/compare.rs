@@ -168,8 +168,9 @@ fn a_chaotic_motion_is_judged_by_averages_beyond_a_short_horizon() {
     assert!(agreement.max_state_error < 1e-3);
     let whole = max_state_error(&exact, &engine, 2000.0).unwrap();
     assert!(whole > 0.1, "{whole}");
-    let too_long = compare(&exact, &engine, &Expectation { horizon: 2000.0, ..expected });
-    assert!(matches!(too_long, Err(CompareError::Toothless { check: "max_state_error", .. })), "{too_long:?}");
+    // However long the horizon, the tolerance stays at 1 % of the motion, and parted trajectories fail it.
+    let (state, ..) = averages(&judge(&engine, &Expectation { horizon: 2000.0, ..expected }));
+    assert!(!state);
     let other = TwoMassRig::new(RigParameters { xi1: -0.12, ..Default::default() }).unwrap();
     // Its frequency is too near to tell in this time.
     let (state, amplitude, _) = averages(&judge(&run(other.chain()), &expected));
