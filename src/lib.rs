@@ -54,3 +54,8 @@ pub mod scene;
 #[cfg(feature = "render")]
 pub mod stage;
 pub mod store;
+
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -3,7 +3,7 @@
 use crate::scene::{Case, Initial, Joints, Precision, Scene, Scheme};
 use anyhow::{Context, ensure};
 use clap::Args;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Parameters of the two-mass rig; those of the scene, or nominal ones, where not given.
 #[derive(Debug, Args)]
@@ -119,6 +119,29 @@ impl FilmArgs {
         [film.width, film.height] = self.size.unwrap_or([film.width, film.height]);
         film.fps = self.fps.unwrap_or(film.fps);
         film.speed = self.speed.unwrap_or(film.speed);
+    }
+}
+
+/// A scene to film, with its changes.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// Scene file; the built-in limit torus without it.
+    pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    rig: RigArgs,
+    #[command(flatten)]
+    engine: EngineArgs,
+    #[command(flatten)]
+    pub film: FilmArgs,
+}
+
+impl SceneArgs {
+    pub fn case(&self) -> anyhow::Result<Case> {
+        let mut scene = load(self.scene.as_deref())?;
+        self.rig.apply(&mut scene)?;
+        self.engine.apply(&mut scene);
+        self.film.apply(&mut scene);
+        check(&scene, self.scene.as_deref())
     }
 }
 

@@ -1,6 +1,6 @@
 //! `render`: frames and film of a scene or a stored trajectory, without the cross-check.
 
-use super::case_args::{EngineArgs, FilmArgs, RigArgs, check, load};
+use super::case_args::SceneArgs;
 use super::common::{Common, Document, print};
 use super::film::{self, DrawArgs};
 use super::progress::Progress;
@@ -26,20 +26,14 @@ enum Solver {
 #[command(after_help = "Examples:\n  stickslip render scenes/chaos.toml --with exact -o renders/chaos\n  \
     stickslip simulate --xi1 -0.1 --sample 0.04 -o t.csv && stickslip render --trajectory t.csv -o renders/t")]
 pub struct RenderArgs {
-    /// Scene file; the built-in scene without it.
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    input: SceneArgs,
     /// A trajectory written by `simulate`, in place of a scene.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "solver"])]
     trajectory: Option<PathBuf>,
     /// Which solution to show.
     #[arg(long = "with", id = "solver", value_enum, default_value_t = Solver::Rapier)]
     solver: Solver,
-    #[command(flatten)]
-    rig: RigArgs,
-    #[command(flatten)]
-    engine: EngineArgs,
-    #[command(flatten)]
-    film: FilmArgs,
     #[command(flatten)]
     draw: DrawArgs,
     #[command(flatten)]
@@ -58,7 +52,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         (None, Solver::Exact) => "exact",
         (None, Solver::Rapier) => "rapier",
     };
-    let input = args.scene.as_deref().or(args.trajectory.as_deref());
+    let input = args.input.scene.as_deref().or(args.trajectory.as_deref());
     // The plain name belongs to `run`.
     let directory = args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{solver}")));
     let parameters = json!({ "case": case, "with": solver, "trajectory": args.trajectory });
@@ -77,11 +71,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
 
 impl RenderArgs {
     fn computed(&self) -> anyhow::Result<(Case, Trajectory)> {
-        let mut scene = load(self.scene.as_deref())?;
-        self.rig.apply(&mut scene)?;
-        self.engine.apply(&mut scene);
-        self.film.apply(&mut scene);
-        let case = check(&scene, self.scene.as_deref())?;
+        let case = self.input.case()?;
         let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));
         let trajectory = match self.solver {
             Solver::Exact => motions::exactly(&case, &start, sampling)?,
@@ -94,13 +84,13 @@ impl RenderArgs {
         let fault = || format!("trajectory {}", path.display());
         let (case, trajectory) = from_table(&read_table(path)?).with_context(fault)?;
         ensure!(
-            self.film.t_end.is_none(),
+            self.input.film.t_end.is_none(),
             "--t-end cannot change a stored trajectory: give it to `simulate`, or a scene to `render`"
         );
         let mut film = Film { speed: Film::default().speed * case.scales.time, ..Film::default() };
-        [film.width, film.height] = self.film.size.unwrap_or([film.width, film.height]);
-        film.fps = self.film.fps.unwrap_or(film.fps);
-        film.speed = self.film.speed.unwrap_or(film.speed);
+        [film.width, film.height] = self.input.film.size.unwrap_or([film.width, film.height]);
+        film.fps = self.input.film.fps.unwrap_or(film.fps);
+        film.speed = self.input.film.speed.unwrap_or(film.speed);
         let case = case.refilmed(film, &path.display().to_string())?;
         Ok((case, trajectory))
     }

@@ -1,6 +1,6 @@
 //! `run`: the main job. The rig in Rapier, the exact solution beside it, their agreement, and a film of the engine's motion.
 
-use super::case_args::{EngineArgs, FilmArgs, RigArgs, check, load};
+use super::case_args::SceneArgs;
 use super::common::{Common, Document, print};
 use super::film::{self, DrawArgs, Made};
 use super::progress::Progress;
@@ -24,14 +24,8 @@ use std::path::{Path, PathBuf};
     stickslip run --xi1 -0.1 --t-end 400 -o renders/stronger\n\n\
     Exit status 1: engine and exact solution disagree; the films and numbers are there all the same.")]
 pub struct RunArgs {
-    /// Scene file; the built-in limit torus without it.
-    scene: Option<PathBuf>,
     #[command(flatten)]
-    rig: RigArgs,
-    #[command(flatten)]
-    engine: EngineArgs,
-    #[command(flatten)]
-    film: FilmArgs,
+    input: SceneArgs,
     #[command(flatten)]
     draw: DrawArgs,
     #[command(flatten)]
@@ -46,12 +40,12 @@ pub fn default_directory(input: Option<&Path>, suffix: &str) -> PathBuf {
 
 pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
     let mut progress = Progress::new(args.common.quiet);
-    let case = args.case()?;
+    let case = args.input.case()?;
     args.draw.check(case.frame_count())?;
     let sampling = motions::film_sampling(&case);
     let settings = motions::engine_settings(&case, sampling);
     let parameters = json!({ "case": case, "engine": settings, "sampling": sampling });
-    let directory = args.common.output.clone().unwrap_or_else(|| default_directory(args.scene.as_deref(), ""));
+    let directory = args.common.output.clone().unwrap_or_else(|| default_directory(args.input.scene.as_deref(), ""));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("run", parameters.clone()), existing)?;
 
@@ -75,16 +69,6 @@ pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
         print(&conclusion(&agreement, &made, &directory))?;
     }
     Ok(if agreement.passed { Verdict::Done } else { Verdict::Failed })
-}
-
-impl RunArgs {
-    fn case(&self) -> anyhow::Result<Case> {
-        let mut scene = load(self.scene.as_deref())?;
-        self.rig.apply(&mut scene)?;
-        self.engine.apply(&mut scene);
-        self.film.apply(&mut scene);
-        check(&scene, self.scene.as_deref())
-    }
 }
 
 fn write_trajectory(

@@ -3,6 +3,7 @@
 //! Parameters and definitions only; nothing here evolves in time.
 
 mod chain;
+mod chain_builder;
 mod energy;
 mod harmonic;
 mod jenkins;
@@ -12,7 +13,8 @@ mod quantity;
 mod rig;
 mod scaling;
 
-pub use chain::{ChainBuilder, OscillatorChain};
+pub use chain::OscillatorChain;
+pub use chain_builder::ChainBuilder;
 pub use energy::{EnergyLedger, Works};
 pub use harmonic::{HarmonicEstimate, sticking_angle};
 pub use jenkins::{Attachment, ContactState, Direction, JenkinsElement};

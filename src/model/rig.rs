@@ -9,7 +9,8 @@
 //! Two unit masses; mass 1 carries the Jenkins element. As elements: self-excitation `xi1` from each mass to ground and a
 //! damper `(xi2 - xi1)/2` between them, so that the in-phase mode has damping `xi1` and the out-of-phase mode `xi2`.
 
-use super::chain::{ChainBuilder, OscillatorChain};
+use super::chain::OscillatorChain;
+use super::chain_builder::ChainBuilder;
 use super::jenkins::{Attachment, JenkinsElement};
 use super::quantity::{ParameterError, Range};
 use schemars::JsonSchema;
