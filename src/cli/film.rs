@@ -20,10 +20,12 @@ pub enum RendererName {
     Cpu,
     /// A hardware adapter, Vulkan or GL (Metal, Direct3D).
     Gpu,
-    /// Any Vulkan adapter, software included.
+    /// A hardware adapter through Vulkan.
     Vulkan,
-    /// Any GL adapter, software included.
+    /// A hardware adapter through OpenGL.
     Gl,
+    /// A graphics driver that draws in software, such as lavapipe or llvmpipe.
+    Software,
 }
 
 #[derive(Debug, Args)]
@@ -62,6 +64,7 @@ impl RendererName {
             Self::Gpu => RendererChoice::Gpu,
             Self::Vulkan => RendererChoice::Vulkan,
             Self::Gl => RendererChoice::Gl,
+            Self::Software => RendererChoice::Software,
         }
     }
 }

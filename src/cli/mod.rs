@@ -49,6 +49,15 @@ enum Verdict {
     Failed,
 }
 
+/// The error and its causes, each said once: messages of the library often name their cause already.
+fn message(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |said, cause| match said.as_str() {
+        "" => cause,
+        _ if said.contains(&cause) => said,
+        _ => format!("{said}: {cause}"),
+    })
+}
+
 /// Parses the command line, runs the command and returns its exit status: 0 done, 1 a check failed, 2 bad input or could not run.
 #[must_use]
 pub fn main() -> ExitCode {
@@ -69,7 +78,7 @@ pub fn main() -> ExitCode {
         Ok(Verdict::Done) => ExitCode::SUCCESS,
         Ok(Verdict::Failed) => ExitCode::from(1),
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", message(&error));
             ExitCode::from(2)
         }
     }

@@ -26,7 +26,7 @@ pub fn start(case: &Case) -> anyhow::Result<State> {
         Initial::State { state } => Ok(State::two_mass(state)),
         Initial::LimitCycle { perturbation } => {
             let orbit = exact_limit_cycle(case.parameters)
-                .context("the motion was to start on the limit cycle: give an initial state instead")?;
+                .context("the motion was to start on the limit cycle; give an initial state instead (--initial, or [initial] in the scene)")?;
             let mut state = orbit.reversal();
             state.positions[1] += perturbation;
             Ok(state)
