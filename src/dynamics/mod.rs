@@ -2,8 +2,10 @@
 
 mod flow;
 mod state;
+mod tangent;
 mod trajectory;
 
 pub use flow::{Flow, HalfPeriodMap, HalfReturn, ReversalPoint};
 pub use state::{State, StateError};
+pub use tangent::TangentFlow;
 pub use trajectory::{Event, EventKind, Outcome, Sample, Sampling, Trajectory};

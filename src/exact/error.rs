@@ -20,6 +20,8 @@ pub enum ExactError {
         "initial {field}[{index}] = {found} lies beyond {bound}: start within the amplitude bound or raise it with `with_amplitude_bound`"
     )]
     StartsBeyondBound { field: &'static str, index: usize, found: f64, bound: f64 },
+    #[error("tangent vectors have {found} components, expected {expected}: one per state variable")]
+    TangentLength { found: usize, expected: usize },
     #[error(
         "the motion was asked for at time {found}, but it is known from 0 to {end}: choose a time in that span or solve for longer"
     )]

@@ -92,7 +92,7 @@ impl TwoMassFlow {
 }
 
 /// `exp(A)` by its series for `A/2^s` of norm at most 1/2, squared s times.
-fn exponential(matrix: Matrix5<f64>) -> Matrix5<f64> {
+pub(super) fn exponential(matrix: Matrix5<f64>) -> Matrix5<f64> {
     let norm = matrix.row_iter().map(|row| row.abs().sum()).fold(0.0, f64::max);
     let squarings = (2.0 * norm).max(1.0).log2().ceil() as i32;
     let scaled = matrix / 2.0_f64.powi(squarings);

@@ -39,3 +39,4 @@ mod small_disk;
 mod small_scene;
 mod store;
 mod symmetry;
+mod tangent;
