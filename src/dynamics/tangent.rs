@@ -1,7 +1,25 @@
 //! Flows with their linearisation.
 
+use super::state::State;
 use super::trajectory::Outcome;
-use nalgebra::{DMatrix, DVector};
+use crate::model::RigParameter;
+use nalgebra::{DMatrix, DVector, Vector5};
+
+/// A flow of the two-mass rig that knows how its end depends on the parameters.
+pub trait ParameterTangent {
+    type Error: std::error::Error + Send + Sync + 'static;
+
+    /// Derivatives of the state `(x1, x2, v1, v2, f)` at `duration` after `initial` with respect to `parameters`, in their order.
+    ///
+    /// # Errors
+    /// If the state or the duration cannot be used, the motion diverges before, or the solver fails.
+    fn parameter_tangents(
+        &self,
+        initial: &State,
+        duration: f64,
+        parameters: &[RigParameter],
+    ) -> Result<Vec<Vector5<f64>>, Self::Error>;
+}
 
 /// A flow that carries infinitesimal perturbations along: what Lyapunov exponents and Floquet multipliers are computed from.
 ///

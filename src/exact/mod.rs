@@ -34,6 +34,7 @@ mod pattern;
 mod piece;
 mod prescribed;
 mod scan;
+mod section;
 mod series;
 mod tangent;
 mod trajectory;

@@ -77,7 +77,7 @@ impl TwoMassFlow {
         duration: f64,
     ) -> Result<Outcome, ExactError> {
         let motion = self.series().solve(initial, duration)?;
-        for (contacts, span) in motion.phases() {
+        for (_, contacts, span) in motion.phases() {
             let carried = self.phase_tangent(contacts.iter().all(|contact| contact.is_stick()), span) * &*tangents;
             tangents.copy_from(&carried);
         }

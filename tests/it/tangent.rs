@@ -1,9 +1,9 @@
 //! The linearised flow against central finite differences of the flow, switches and starts beside them included.
 
 use nalgebra::{DMatrix, DVector};
-use stickslip::dynamics::{Outcome, State, TangentFlow};
+use stickslip::dynamics::{Closure, Outcome, ParameterTangent, ReversalPoint, SectionMap, State, TangentFlow};
 use stickslip::exact::{Representation, TwoMassFlow};
-use stickslip::model::{RigParameters, TwoMassRig};
+use stickslip::model::{RigParameter, RigParameters, TwoMassRig};
 
 const Y0: [f64; 5] = [1.2226496266, 0.9053979113, 0.0, -0.5377904062, 1.0];
 
@@ -138,4 +138,71 @@ fn wrong_lengths_are_refused() {
     assert!(flow.carry(&mut short, &mut tangents, 1.0).unwrap_err().to_string().contains("expected 5"));
     let (mut state, mut narrow) = (DVector::zeros(5), DMatrix::identity(4, 4));
     assert!(flow.carry(&mut state, &mut narrow, 1.0).unwrap_err().to_string().contains("expected 5"));
+}
+
+/// The derivative with respect to each parameter, by central differences.
+fn parameter_difference(
+    p: RigParameters,
+    parameter: RigParameter,
+    of: impl Fn(&TwoMassFlow) -> DVector<f64>,
+) -> DVector<f64> {
+    let step = 1e-6;
+    let moved = |by: f64| of(&flow(p.with(parameter, p.get(parameter) + by)));
+    (moved(step) - moved(-step)) / (2.0 * step)
+}
+
+#[test]
+fn the_parameter_tangent_is_the_derivative_also_just_after_a_switch() {
+    let p = RigParameters::default();
+    let y = [1.3, 0.4, -0.2, 0.3, 0.6];
+    let flow = flow(p);
+    let switches = flow.solve(&State::two_mass(y), 40.0).unwrap();
+    let beside = switches.events().iter().flat_map(|event| [event.time - 1e-3, event.time + 1e-3]);
+    for duration in [0.3, 3.0, 15.0].into_iter().chain(beside) {
+        let found = flow.parameter_tangents(&State::two_mass(y), duration, &RigParameter::ALL).unwrap();
+        for (parameter, found) in RigParameter::ALL.into_iter().zip(found) {
+            let expected = parameter_difference(p, parameter, |flow| end(flow, y, duration));
+            let difference = (DVector::from_column_slice(found.as_slice()) - expected).amax();
+            // As for states; third derivatives over 40 time units grow like 40^3, times step^2 = 1e-12.
+            assert!(difference < 2e-7 * (1.0 + duration), "{difference:e} {parameter:?} over {duration}");
+        }
+    }
+}
+
+#[test]
+fn section_maps_have_exact_derivatives() {
+    let p = RigParameters { xi1: -0.08, kappa: 0.12, gamma: 0.45, xi2: 0.02 };
+    let start = ReversalPoint::new(1.45, 0.8, -0.4);
+    for closure in [Closure::HalfPeriod, Closure::FullPeriod { cycles: 1 }, Closure::FullPeriod { cycles: 3 }] {
+        let image = |flow: &TwoMassFlow, start| flow.section_return(start, closure, &[]).unwrap().image;
+        let found = flow(p).section_return(start, closure, &RigParameter::ALL).unwrap();
+        for i in 0..3 {
+            let mut step = ReversalPoint::zeros();
+            step[i] = 1e-6;
+            let expected = (image(&flow(p), start + step) - image(&flow(p), start - step)) / 2e-6;
+            // Step 1e-6: rounding 1e-15/1e-6 and truncation 1e-12 times third derivatives of order 10 to 1e3.
+            assert!((found.jacobian.column(i) - expected).amax() < 3e-8, "{closure:?}");
+        }
+        for (parameter, found) in RigParameter::ALL.into_iter().zip(&found.sensitivities) {
+            let expected =
+                parameter_difference(p, parameter, |flow| DVector::from_column_slice(image(flow, start).as_slice()));
+            assert!(
+                (DVector::from_column_slice(found.as_slice()) - expected).amax() < 3e-7,
+                "{closure:?} {parameter:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_full_return_is_two_half_returns() {
+    let flow = flow(RigParameters::default());
+    let start = ReversalPoint::new(1.45, 0.8, -0.4);
+    let first = flow.section_return(start, Closure::HalfPeriod, &[]).unwrap();
+    let second = flow.section_return(first.image, Closure::HalfPeriod, &[]).unwrap();
+    let full = flow.section_return(start, Closure::FullPeriod { cycles: 1 }, &[]).unwrap();
+    // Roundings of one period.
+    assert!((full.image - second.image).amax() < 1e-13);
+    assert!((full.jacobian - second.jacobian * first.jacobian).amax() < 1e-12);
+    assert!(flow.section_return(start, Closure::FullPeriod { cycles: 0 }, &[]).is_err());
 }
