@@ -101,7 +101,7 @@ pub fn expectation(case: &Case, settings: &EngineSettings, recording: &Recording
     let end = recording.trajectory.last().map_or(case.duration, |sample| sample.time);
     let growth_rate = match (case.prescribed, exact_limit_cycle(case.parameters)) {
         (Some(_), _) => 0.0,
-        (None, Ok(orbit)) => (orbit.half_period_multipliers()[0].norm().ln() * 2.0 / orbit.period).max(0.0),
+        (None, Ok(orbit)) => (orbit.section_multipliers()[0].norm().ln() * 2.0 / orbit.period).max(0.0),
         (None, Err(_)) => (-0.5 * case.parameters.xi1).max(0.0),
     };
     Ok(Expectation {

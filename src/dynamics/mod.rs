@@ -1,9 +1,13 @@
 //! The interface all solvers share: states, trajectories with events, flows and maps.
 
 mod flow;
+mod section;
 mod state;
+mod tangent;
 mod trajectory;
 
 pub use flow::{Flow, HalfPeriodMap, HalfReturn, ReversalPoint};
+pub use section::{Closure, SectionMap, SectionReturn};
 pub use state::{State, StateError};
+pub use tangent::{ParameterTangent, TangentFlow};
 pub use trajectory::{Event, EventKind, Outcome, Sample, Sampling, Trajectory};

@@ -1,25 +1,52 @@
+use super::bifurcation::Bifurcation;
 use crate::model::ParameterError;
 use thiserror::Error;
 
-/// Why no periodic orbit was found.
+type Source = Box<dyn std::error::Error + Send + Sync>;
+
+/// Why no periodic orbit, branch or special point was found. Points are `(x1, x2, v2)`, followed by the parameters that vary.
 #[derive(Debug, Error)]
 pub enum OrbitError {
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     #[error("no limit cycle to start from at xi1 = {xi1}, kappa = {kappa}: it needs xi1 < 0 and kappa > 0")]
     NoGuess { xi1: f64, kappa: f64 },
-    #[error("the half-period map failed at (x1, x2, v2) = {at:?}: {source}. Start closer to the orbit")]
-    Map { at: [f64; 3], source: Box<dyn std::error::Error + Send + Sync> },
+    #[error("the section map failed at (x1, x2, v2) = {at:?}: {source}. Start closer to the orbit")]
+    Map { at: [f64; 3], source: Source },
+    #[error("the flow failed along the orbit of period {period}: {source}")]
+    Flow { period: f64, source: Source },
+    #[error("Newton's method met a singular derivative at {at:?}, residual {residual:e}: a special point may be near")]
+    Singular { at: Vec<f64>, residual: f64 },
     #[error(
-        "Newton's method met a singular derivative at (x1, x2, v2) = {at:?}, residual {residual:e}: a fold may be near"
+        "Newton's method did not converge in {steps} steps: at {at:?} the residual is still {residual:e}. Start closer to the orbit"
     )]
-    Singular { at: [f64; 3], residual: f64 },
-    #[error(
-        "Newton's method did not converge in {steps} steps: at (x1, x2, v2) = {at:?} the residual is still {residual:e}. Start closer to the orbit"
-    )]
-    NoConvergence { at: [f64; 3], residual: f64, steps: usize },
+    NoConvergence { at: Vec<f64>, residual: f64, steps: usize },
     #[error(
         "the limit cycle could be followed only to xi1 = {reached}, not to {wanted}: a fold lies between ({source})"
     )]
     Stuck { reached: f64, wanted: f64, source: Box<OrbitError> },
+    #[error(
+        "the step would turn the tangent by {turn:.3} rad (allowed {allowed_turn:.3}) and lean by {lean:.3} rad (allowed {allowed_lean:.3}): it may lead to another branch; take shorter steps"
+    )]
+    Jump { turn: f64, allowed_turn: f64, lean: f64, allowed_lean: f64 },
+    #[error(
+        "the curve could not be followed beyond {at:?} even with step {step:e}: {source}. The orbit may change its phases there, or the parameters leave their range"
+    )]
+    StepTooSmall { at: Vec<f64>, step: f64, source: Box<OrbitError> },
+    #[error(
+        "the {kind:?} at {from:?} to {to:?} was found at {found:?}, outside: follow the branch with a smaller largest step"
+    )]
+    OutsideBracket { kind: Bifurcation, from: Vec<f64>, to: Vec<f64>, found: Vec<f64> },
+    #[error("a {kind:?} curve needs two different parameters, not {parameter} twice")]
+    SameParameter { kind: Bifurcation, parameter: &'static str },
+}
+
+impl OrbitError {
+    pub(super) fn singular(at: &[f64], residual: f64) -> Self {
+        Self::Singular { at: at.to_vec(), residual }
+    }
+
+    pub(super) fn no_convergence(at: &[f64], residual: f64, steps: usize) -> Self {
+        Self::NoConvergence { at: at.to_vec(), residual, steps }
+    }
 }

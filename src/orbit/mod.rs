@@ -1,9 +1,20 @@
-//! Periodic orbits of a flow, seen only through its maps and their derivatives.
+//! Periodic orbits of a flow, seen only through its maps and their derivatives: [`shoot`] finds them, [`FloquetMultipliers`]
+//! decide their stability, [`PseudoArclength`] follows them over a parameter, [`Branch`] locates the bifurcations on the way.
 
+mod bifurcation;
+mod branch;
+mod curve;
 mod error;
+mod family;
+mod floquet;
 mod limit_cycle;
 mod shooting;
+mod special;
 
+pub use bifurcation::Bifurcation;
+pub use branch::{Branch, BranchPoint, Heading, PseudoArclength};
 pub use error::OrbitError;
+pub use floquet::FloquetMultipliers;
 pub use limit_cycle::limit_cycle;
-pub use shooting::{PeriodicOrbit, shoot};
+pub use shooting::{PeriodicOrbit, shoot, shoot_section};
+pub use special::SpecialPoint;

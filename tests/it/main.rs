@@ -2,6 +2,7 @@
 
 #[cfg(feature = "render")]
 mod back_ends;
+mod branches;
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
@@ -19,12 +20,14 @@ mod exact_energy;
 #[cfg(feature = "render")]
 mod film;
 mod general_solver;
+mod hopf;
 #[cfg(feature = "engine")]
 mod hysteresis;
 mod independent;
 mod layering;
 #[cfg(feature = "engine")]
 mod numerical_damping;
+mod orbits;
 #[cfg(feature = "render")]
 mod overlays;
 #[cfg(feature = "render")]
@@ -39,3 +42,4 @@ mod small_disk;
 mod small_scene;
 mod store;
 mod symmetry;
+mod tangent;
