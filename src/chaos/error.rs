@@ -19,10 +19,6 @@ pub enum ChaosError {
         "the {returns} returns wind {turns:.3} times around their mean: they lie on no closed curve around it, so there is no rotation number; check that the motion is a torus"
     )]
     NotWinding { returns: usize, turns: f64 },
-    #[error(
-        "the tangent of dimension {dimension} collapsed in {lost} directions at time {time}, allowed is at most one per slider: the spectrum cannot be told apart"
-    )]
-    Collapsed { dimension: usize, lost: usize, time: f64 },
 }
 
 impl ChaosError {

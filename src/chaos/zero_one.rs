@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn a_quasi_periodic_series_is_regular() {
         let series: Vec<f64> =
-            (0..2000).map(|n| f64::from(n)).map(|n| (0.7 * n).cos() + 0.4 * (1.9 * n + 1.0).cos()).collect();
+            (0..2000).map(f64::from).map(|n| (0.7 * n).cos() + 0.4 * (1.9 * n + 1.0).cos()).collect();
         assert!(zero_one_test(&series).unwrap().abs() < 0.1);
     }
 

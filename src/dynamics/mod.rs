@@ -2,10 +2,14 @@
 
 mod flow;
 mod motion;
+mod section;
 mod state;
+mod tangent;
 mod trajectory;
 
 pub use flow::{Flow, HalfPeriodMap, HalfReturn, ReversalPoint};
 pub use motion::{DenseFlow, Motion};
+pub use section::{Closure, SectionMap, SectionReturn};
 pub use state::{State, StateError};
+pub use tangent::{ParameterTangent, TangentFlow};
 pub use trajectory::{Event, EventKind, Outcome, Sample, Sampling, Trajectory};

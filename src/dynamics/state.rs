@@ -32,6 +32,29 @@ impl State {
         Self { positions: vec![x1, x2], velocities: vec![v1, v2], slider_forces: vec![f] }
     }
 
+    /// From the components in the order x, v, f, for a chain of `oscillators`.
+    ///
+    /// # Errors
+    /// [`StateError::WrongLength`] unless there are `2 oscillators + sliders` components.
+    pub fn from_components(y: &[f64], chain: &OscillatorChain) -> Result<Self, StateError> {
+        let (n, expected) = (chain.oscillators(), 2 * chain.oscillators() + chain.sliders());
+        if y.len() != expected {
+            return Err(StateError::WrongLength {
+                field: "components",
+                found: y.len(),
+                expected,
+                per: "state variable",
+            });
+        }
+        let (positions, rest) = y.split_at(n);
+        let (velocities, slider_forces) = rest.split_at(n);
+        Ok(Self {
+            positions: positions.to_vec(),
+            velocities: velocities.to_vec(),
+            slider_forces: slider_forces.to_vec(),
+        })
+    }
+
     /// At rest, without force.
     #[must_use]
     pub fn rest(chain: &OscillatorChain) -> Self {

@@ -20,6 +20,10 @@ pub enum ExactError {
         "initial {field}[{index}] = {found} lies beyond {bound}: start within the amplitude bound or raise it with `with_amplitude_bound`"
     )]
     StartsBeyondBound { field: &'static str, index: usize, found: f64, bound: f64 },
+    #[error("the motion leaves the amplitude bound {bound} at time {time}, before {asked}: ask for a shorter span")]
+    Diverged { time: f64, bound: f64, asked: f64 },
+    #[error("tangent vectors have {found} components, expected {expected}: one per state variable")]
+    TangentLength { found: usize, expected: usize },
     #[error(
         "the motion was asked for at time {found}, but it is known from 0 to {end}: choose a time in that span or solve for longer"
     )]
@@ -36,6 +40,10 @@ pub enum ExactError {
         "the half period has {found} at time {time} where {expected} was expected: the start lies too far from a symmetric orbit with one stick and one slip phase per half period"
     )]
     NoHalfReturn { found: &'static str, expected: &'static str, time: f64 },
+    #[error(
+        "only {found} of {expected} reversals at f = +1 within {switches} switches and time {time}: the start lies too far from a periodic orbit"
+    )]
+    NoReturn { found: usize, expected: usize, switches: usize, time: f64 },
     #[error(
         "initial {field}[{index}] = {found} does not agree with the prescribed motion, which has {expected} at time 0: set it to that"
     )]

@@ -8,6 +8,7 @@
 //! certified: a bound on the curvature of the event function proves that no crossing is missed (`crossing`).
 //!
 //! - [`TwoMassFlow`]: the paper's rig in modal coordinates (`modal`, `modal_phase`, `modal_root`, `scan`, `walk`), about 0.1 us per event.
+//!   Its linearisation, with saltation at the switches, is in `tangent`.
 //! - [`ChainFlow`]: any chain, matrix exponential by series (`pattern`, `chain_walk`).
 //! - [`PrescribedFlow`]: hysteresis under a prescribed motion of oscillator 0 (`prescribed`, `hysteresis`).
 //! - [`ExactTrajectory`]: the motion of either at any time, and its energy ledger (`piece`, `gauss`).
@@ -33,7 +34,9 @@ mod pattern;
 mod piece;
 mod prescribed;
 mod scan;
+mod section;
 mod series;
+mod tangent;
 mod trajectory;
 mod two_mass;
 mod walk;

@@ -156,7 +156,12 @@ impl Modes {
 
     /// Coordinates after a time of any length.
     pub(super) fn after(&self, c: &Modal, time: f64) -> Modal {
-        rotated(c, &exponential(&self.eigenvalues, time))
+        rotated(c, &self.turn(time))
+    }
+
+    /// The exponentials over `time`: [`rotated`] by the result is [`Self::after`].
+    pub(super) fn turn(&self, time: f64) -> Modal {
+        exponential(&self.eigenvalues, time)
     }
 
     /// First derivative of the event function.

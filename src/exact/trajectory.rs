@@ -57,6 +57,11 @@ impl ExactTrajectory {
         &self.events
     }
 
+    /// The stretches of constant contact state in order: state at the start, contact state of each element, duration.
+    pub(super) fn phases(&self) -> impl Iterator<Item = (State, &[ContactState], f64)> {
+        self.pieces.iter().map(|piece| (piece.evaluator(&self.chain).state(0.0), &*piece.contacts, piece.duration))
+    }
+
     /// The state at any time from 0 to [`Self::end`].
     ///
     /// # Errors

@@ -121,6 +121,15 @@ impl TwoMassFlow {
         walk.completed().map(|()| arrival)
     }
 
+    /// The modal coordinates of both contact states, where they can be used.
+    pub(super) fn modal(&self) -> Option<&ModalPair> {
+        self.modal.as_deref()
+    }
+
+    pub(super) fn series(&self) -> &ChainFlow {
+        &self.series
+    }
+
     /// The first `count` changes of contact state up to `t_end`, fewer if there are no more.
     pub(super) fn first_switches(&self, initial: &State, t_end: f64, count: usize) -> Result<Vec<Event>, ExactError> {
         let Some(pair) = &self.modal else {
@@ -130,14 +139,19 @@ impl TwoMassFlow {
         Ok(walk.filter_map(|leg| event_of(pair, &leg)).filter(is_switch).take(count).collect())
     }
 
-    fn outcome(&self, leg: &Leg) -> Outcome {
+    pub(super) fn outcome(&self, leg: &Leg) -> Outcome {
         match leg.exit.end {
             End::Bound => Outcome::Diverged { time: leg.end_time(), bound: self.amplitude_bound },
             _ => Outcome::Completed,
         }
     }
 
-    fn walk<'a>(&self, pair: &'a ModalPair, initial: &State, t_end: f64) -> Result<ModalWalk<'a>, ExactError> {
+    pub(super) fn walk<'a>(
+        &self,
+        pair: &'a ModalPair,
+        initial: &State,
+        t_end: f64,
+    ) -> Result<ModalWalk<'a>, ExactError> {
         check_t_end(t_end)?;
         let chain = self.rig.chain();
         let state = admitted(initial, chain, self.amplitude_bound)?;

@@ -23,6 +23,7 @@ mod general_solver;
 mod hysteresis;
 mod independent;
 mod layering;
+mod lyapunov;
 #[cfg(feature = "engine")]
 mod numerical_damping;
 #[cfg(feature = "render")]
@@ -39,3 +40,4 @@ mod small_disk;
 mod small_scene;
 mod store;
 mod symmetry;
+mod tangent;
