@@ -25,6 +25,7 @@
 //! | [`dynamics`] | what all solvers share: states, trajectories, flows, maps |
 //! | [`exact`] | closed-form flow in each contact state, certified events |
 //! | [`orbit`] | limit cycles by shooting |
+//! | [`chaos`] | Poincare maps, amplitude diagrams, rotation numbers, 0-1 test, Lyapunov spectra |
 //! | `engine` | the rig in Rapier (feature `engine`) |
 //! | [`compare`] | distances, observed order, verdicts |
 //! | [`scene`] | scene files |
@@ -37,6 +38,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_debug_implementations)]
 
+pub mod chaos;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod compare;

@@ -1,12 +1,14 @@
 //! The interface all solvers share: states, trajectories with events, flows and maps.
 
 mod flow;
+mod motion;
 mod section;
 mod state;
 mod tangent;
 mod trajectory;
 
 pub use flow::{Flow, HalfPeriodMap, HalfReturn, ReversalPoint};
+pub use motion::{DenseFlow, Motion};
 pub use section::{Closure, SectionMap, SectionReturn};
 pub use state::{State, StateError};
 pub use tangent::{ParameterTangent, TangentFlow};

@@ -6,7 +6,7 @@ use super::error::ExactError;
 use super::piece::{Law, Piece, state_of};
 use super::trajectory::{ExactTrajectory, check_sampling, check_t_end};
 use super::two_mass::is_switch;
-use crate::dynamics::{Event, Flow, Outcome, Sampling, State, Trajectory};
+use crate::dynamics::{DenseFlow, Event, Flow, Outcome, Sampling, State, Trajectory};
 use crate::model::OscillatorChain;
 
 /// Closed form of a chain with any number of oscillators and Jenkins elements, with certified event location.
@@ -86,5 +86,13 @@ impl Flow for ChainFlow {
     fn trajectory(&self, initial: &State, sampling: Sampling) -> Result<Trajectory, ExactError> {
         check_sampling(sampling)?;
         self.solve(initial, sampling.t_end)?.sampled(sampling)
+    }
+}
+
+impl DenseFlow for ChainFlow {
+    type Motion = ExactTrajectory;
+
+    fn motion(&self, initial: &State, t_end: f64) -> Result<ExactTrajectory, ExactError> {
+        self.solve(initial, t_end)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::error::ExactError;
 use super::piece::Piece;
-use crate::dynamics::{Event, Outcome, Sample, Sampling, State, Trajectory};
+use crate::dynamics::{Event, Motion, Outcome, Sample, Sampling, State, Trajectory};
 use crate::model::{ContactState, EnergyLedger, OscillatorChain};
 
 /// Samples beyond which a sampling is refused.
@@ -103,6 +103,26 @@ impl ExactTrajectory {
             outcome => outcome,
         };
         Ok(Trajectory { samples, events, outcome })
+    }
+}
+
+impl Motion for ExactTrajectory {
+    type Error = ExactError;
+
+    fn end(&self) -> f64 {
+        self.end
+    }
+
+    fn outcome(&self) -> Outcome {
+        self.outcome
+    }
+
+    fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    fn state(&self, time: f64) -> Result<State, ExactError> {
+        self.state_at(time).map(|instant| instant.state)
     }
 }
 

@@ -7,7 +7,7 @@ use super::modal_phase::{End, ModalPair};
 use super::piece::{Law, Piece};
 use super::trajectory::{ExactTrajectory, check_sampling, check_t_end};
 use super::walk::{Leg, ModalWalk};
-use crate::dynamics::{Event, EventKind, Flow, Outcome, Sampling, State, Trajectory};
+use crate::dynamics::{DenseFlow, Event, EventKind, Flow, Outcome, Sampling, State, Trajectory};
 use crate::model::{ContactState, TwoMassRig};
 use std::sync::Arc;
 
@@ -181,5 +181,13 @@ impl Flow for TwoMassFlow {
     fn trajectory(&self, initial: &State, sampling: Sampling) -> Result<Trajectory, ExactError> {
         check_sampling(sampling)?;
         self.solve(initial, sampling.t_end)?.sampled(sampling)
+    }
+}
+
+impl DenseFlow for TwoMassFlow {
+    type Motion = ExactTrajectory;
+
+    fn motion(&self, initial: &State, t_end: f64) -> Result<ExactTrajectory, ExactError> {
+        self.solve(initial, t_end)
     }
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Module and the modules of this crate it may import.
-const ALLOWED: [(&str, &[&str]); 12] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("render", &[]),
     ("store", &[]),
     ("model", &[]),
@@ -13,11 +13,18 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("exact", &["model", "dynamics"]),
     ("engine", &["model", "dynamics"]),
     ("orbit", &["model", "dynamics"]),
+    ("chaos", &["model", "dynamics"]),
     ("scene", &["model"]),
     ("compare", &["model", "dynamics"]),
     ("stage", &["scene", "model", "dynamics", "render"]),
     ("film", &["render", "store"]),
-    ("cli", &["compare", "dynamics", "engine", "exact", "film", "model", "orbit", "render", "scene", "stage", "store"]),
+    (
+        "cli",
+        &[
+            "chaos", "compare", "dynamics", "engine", "exact", "film", "model", "orbit", "render", "scene", "stage",
+            "store",
+        ],
+    ),
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {

@@ -25,6 +25,7 @@ mod hopf;
 mod hysteresis;
 mod independent;
 mod layering;
+mod lyapunov;
 #[cfg(feature = "engine")]
 mod numerical_damping;
 mod orbits;
