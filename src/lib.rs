@@ -24,7 +24,7 @@
 //! | [`model`] | chain of N oscillators, Jenkins elements, self-excitation, units, linear modes, energy ledger |
 //! | [`dynamics`] | what all solvers share: states, trajectories, flows, maps |
 //! | [`exact`] | closed-form flow in each contact state, certified events |
-//! | [`orbit`] | limit cycles by shooting |
+//! | [`orbit`] | periodic orbits: shooting, Floquet multipliers, continuation, special points |
 //! | [`chaos`] | Poincare maps, amplitude diagrams, rotation numbers, 0-1 test, Lyapunov spectra |
 //! | `engine` | the rig in Rapier (feature `engine`) |
 //! | [`compare`] | distances, observed order, verdicts |

@@ -1,6 +1,6 @@
 //! What all commands share: `--json`, `-q`, `-o`, `--force`, and the document they print.
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::io::Write;
@@ -20,6 +20,17 @@ pub struct Common {
     /// Replace existing output that other parameters made.
     #[arg(long)]
     pub force: bool,
+}
+
+impl Common {
+    /// For commands that only print.
+    pub fn no_files(&self, command: &str) -> anyhow::Result<()> {
+        ensure!(
+            self.output.is_none(),
+            "`{command}` writes no files: leave out -o and take its standard output (--json)"
+        );
+        Ok(())
+    }
 }
 
 /// The JSON document of a command.

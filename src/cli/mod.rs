@@ -1,10 +1,16 @@
 //! The command line: one file per command. The only place that prints.
 
+mod analysis;
+mod branch;
 mod case_args;
 mod common;
 mod film;
 mod generate;
+mod hopf;
+mod lyapunov;
 mod motions;
+mod orbit;
+mod poincare;
 mod progress;
 mod render;
 mod run;
@@ -33,6 +39,11 @@ enum Command {
     Run(run::RunArgs),
     Simulate(simulate::SimulateArgs),
     Render(render::RenderArgs),
+    Orbit(orbit::OrbitArgs),
+    Branch(branch::BranchArgs),
+    Hopf(hopf::HopfArgs),
+    Lyapunov(lyapunov::LyapunovArgs),
+    Poincare(poincare::PoincareArgs),
     /// Print the JSON Schema of scene files.
     Schema(generate::SchemaArgs),
     /// Print shell completions.
@@ -70,6 +81,11 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::Orbit(args) => orbit::run(&args),
+        Command::Branch(args) => branch::run(&args),
+        Command::Hopf(args) => hopf::run(&args),
+        Command::Lyapunov(args) => lyapunov::run(&args),
+        Command::Poincare(args) => poincare::run(&args),
         Command::Schema(args) => generate::schema(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man => generate::man(),

@@ -153,7 +153,7 @@ impl SimulateArgs {
 }
 
 /// An existing file is replaced only if it says that it holds the same result.
-fn refuse_to_overwrite(path: &Path, parameters: &Value, force: bool) -> anyhow::Result<()> {
+pub fn refuse_to_overwrite(path: &Path, parameters: &Value, force: bool) -> anyhow::Result<()> {
     if force || !path.exists() {
         return Ok(());
     }

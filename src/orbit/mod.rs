@@ -8,6 +8,7 @@ mod error;
 mod family;
 mod floquet;
 mod limit_cycle;
+mod measures;
 mod shooting;
 mod special;
 
@@ -16,5 +17,6 @@ pub use branch::{Branch, BranchPoint, Heading, PseudoArclength};
 pub use error::OrbitError;
 pub use floquet::FloquetMultipliers;
 pub use limit_cycle::limit_cycle;
+pub use measures::OrbitMeasures;
 pub use shooting::{PeriodicOrbit, shoot, shoot_section};
 pub use special::SpecialPoint;

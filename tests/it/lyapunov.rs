@@ -36,7 +36,7 @@ fn on_the_stable_limit_cycle_the_spectrum_is_that_of_its_multipliers() {
     let orbit = orbit_at(-0.03);
     let half_period = 0.5 * orbit.period;
     let mut expected: Vec<f64> =
-        orbit.half_period_multipliers().iter().map(|m| m.norm().ln() / half_period).chain([0.0]).collect();
+        orbit.section_multipliers().iter().map(|m| m.norm().ln() / half_period).chain([0.0]).collect();
     expected.sort_by(|a, b| b.total_cmp(a));
     let found = spectrum(-0.03, &orbit.reversal(), 20_000.0, 20_000.0);
     assert_eq!((found.exponents.len(), found.vanished), (4, 1));

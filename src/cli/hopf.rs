@@ -1,0 +1,125 @@
+//! `hopf`: secondary Hopf points and fold of the limit cycle, for one parameter set or over a range of one parameter.
+
+use super::Verdict;
+use super::analysis::{RigInput, lower_branch};
+use super::common::{Common, Document, print};
+use crate::model::{RigParameter, RigParameters};
+use crate::orbit::{Bifurcation, Branch, Heading, SpecialPoint};
+use anyhow::{Context, ensure};
+use clap::Args;
+use rayon::prelude::*;
+use serde_json::{Map, Value, json};
+
+/// Amplitude of mass 1 up to which points beyond the fold are looked for.
+const LARGEST_AMPLITUDE: f64 = 50.0;
+const MOST_VALUES: usize = 100_000;
+
+/// Secondary Hopf points and the fold of the limit cycle, located by Newton's method on the extended system.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:\n  stickslip hopf --json\n  stickslip hopf --vary kappa=0.06:0.25:39 --json")]
+pub struct HopfArgs {
+    /// One row per value of xi2, kappa or gamma, COUNT values from FROM to TO.
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = parse_vary)]
+    vary: Option<Vary>,
+    #[command(flatten)]
+    rig: RigInput,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Vary {
+    parameter: RigParameter,
+    from: f64,
+    to: f64,
+    count: usize,
+}
+
+fn parse_vary(text: &str) -> Result<Vary, String> {
+    let wrong = || "give NAME=FROM:TO:COUNT with NAME one of xi2, kappa, gamma, such as kappa=0.06:0.25:39".to_owned();
+    let (name, range) = text.split_once('=').ok_or_else(wrong)?;
+    let parameter = match name {
+        "xi2" => RigParameter::Xi2,
+        "kappa" => RigParameter::Kappa,
+        "gamma" => RigParameter::Gamma,
+        _ => return Err(wrong()),
+    };
+    let parts: Vec<&str> = range.split(':').collect();
+    let [from, to, count] = parts.as_slice() else { return Err(wrong()) };
+    match (from.parse(), to.parse(), count.parse()) {
+        (Ok(from), Ok(to), Ok(count)) if (2..=MOST_VALUES).contains(&count) => Ok(Vary { parameter, from, to, count }),
+        _ => Err(wrong()),
+    }
+}
+
+pub fn run(args: &HopfArgs) -> anyhow::Result<Verdict> {
+    args.common.no_files("hopf")?;
+    let p = args.rig.parameters()?;
+    let mut parameters = json!({"xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma});
+    let document = match args.vary {
+        None => points(p)?.into_iter().fold(Document::new("hopf", parameters), |d, (key, value)| d.with(&key, value)),
+        Some(vary) => {
+            let name = vary.parameter.name();
+            parameters["vary"] = json!({"name": name, "from": vary.from, "to": vary.to, "count": vary.count});
+            let rows: Vec<Value> = (0..vary.count)
+                .into_par_iter()
+                .map(|n| row(p, vary, n).with_context(|| format!("value {n} of {name}")))
+                .collect::<anyhow::Result<_>>()?;
+            Document::new("hopf", parameters).with("rows", json!(rows))
+        }
+    };
+    // A short table is no easier to read than the document.
+    print(&document.text()?)?;
+    Ok(Verdict::Done)
+}
+
+fn row(p: RigParameters, vary: Vary, n: usize) -> anyhow::Result<Value> {
+    let value = vary.from + (vary.to - vary.from) * (n as f64 / (vary.count - 1) as f64);
+    let at = p.with(vary.parameter, value).validated()?;
+    let mut row = points(at)?;
+    row.insert(vary.parameter.name().to_owned(), json!(value));
+    Ok(Value::Object(row))
+}
+
+/// The fields of one parameter set.
+fn points(p: RigParameters) -> anyhow::Result<Map<String, Value>> {
+    let branch = Branch::follow(lower_branch(p, Heading::Decreasing)?.up_to_amplitude(LARGEST_AMPLITUDE), |_| false)?;
+    ensure!(
+        branch.points.first().is_some_and(|first| first.orbit.stable()),
+        "the limit cycle near a1 = 1 is not stable: sides are not defined"
+    );
+    let fold = branch.special_of(Bifurcation::Fold).next();
+    let fold_at =
+        branch.special.iter().position(|point| point.kind == Bifurcation::Fold).unwrap_or(branch.special.len());
+    // The pair starts inside the unit circle, so its crossings alternate.
+    let crossings: Vec<(usize, Value)> = branch
+        .special
+        .iter()
+        .enumerate()
+        .filter(|(_, point)| point.kind == Bifurcation::NeimarkSacker)
+        .enumerate()
+        .map(|(order, (index, point))| (index, crossing(point, if order % 2 == 0 { "start" } else { "end" })))
+        .collect();
+    let part = |beyond: bool| {
+        crossings.iter().filter(|(index, _)| (*index > fold_at) == beyond).map(|(_, v)| v.clone()).collect::<Vec<_>>()
+    };
+    let analytic = p
+        .analytic_hopf()
+        .map_or(json!([]), |hopf| json!([{"xi1": hopf.start, "side": "start"}, {"xi1": hopf.end, "side": "end"}]));
+    let mut fields = Map::new();
+    fields.insert("secondary_hopf".to_owned(), json!(part(false)));
+    fields.insert("beyond_fold".to_owned(), json!(part(true)));
+    fields.insert(
+        "fold".to_owned(),
+        fold.map_or(Value::Null, |f| json!({"xi1": f.parameters.xi1, "a1": f.orbit.amplitude()})),
+    );
+    fields.insert("analytic".to_owned(), analytic);
+    Ok(fields)
+}
+
+fn crossing(point: &SpecialPoint, side: &str) -> Value {
+    let frequency = point.rotation_angle().map(|angle| angle / (0.5 * point.orbit.period));
+    json!({
+        "xi1": point.parameters.xi1, "side": side, "torus_angular_frequency": frequency, "a1": point.orbit.amplitude(),
+    })
+}

@@ -1,0 +1,83 @@
+//! `poincare`: points of the exact motion on a section.
+
+use super::analysis::{RigInput, beside_the_cycle, exact_flow, window};
+use super::common::{Common, Document, print};
+use super::{Verdict, case_args::parse_initial, motions};
+use crate::chaos::{PoincareSection, poincare_map};
+use crate::dynamics::Outcome;
+use crate::scene::Initial;
+use crate::store::{Column, ColumnData, Table, write_table};
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SectionName {
+    /// x2 = 0, x2' > 0.
+    Fast,
+    /// The mean-free envelope of mass 2 passes zero upwards.
+    Slow,
+    /// Every period of the limit cycle.
+    Stroboscopic,
+}
+
+/// Poincare section of the exact motion.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  stickslip poincare --xi1 -0.06 --section fast -o torus.csv")]
+pub struct PoincareArgs {
+    #[arg(long, value_enum, default_value_t = SectionName::Fast)]
+    section: SectionName,
+    /// End of the motion.
+    #[arg(long, default_value_t = 10_000.0, allow_negative_numbers = true)]
+    t_end: f64,
+    /// Length of its beginning that is left out.
+    #[arg(long, default_value_t = 5000.0, allow_negative_numbers = true)]
+    transient: f64,
+    /// Start here instead of beside the limit cycle.
+    #[arg(long, value_name = "x1,x2,v1,v2,f", allow_hyphen_values = true, value_parser = parse_initial)]
+    initial: Option<Initial>,
+    #[command(flatten)]
+    rig: RigInput,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
+    let p = args.rig.parameters()?;
+    let start = beside_the_cycle(p, args.initial, 0)?;
+    let (name, section) = match args.section {
+        SectionName::Fast => ("fast", PoincareSection::Fast),
+        SectionName::Slow => ("slow", PoincareSection::Slow),
+        SectionName::Stroboscopic => {
+            ("stroboscopic", PoincareSection::Stroboscopic { period: motions::exact_limit_cycle(p)?.period })
+        }
+    };
+    let parameters = json!({
+        "xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "section": section, "t_end": args.t_end,
+        "transient": args.transient, "initial": start,
+    });
+    if let Some(path) = &args.common.output {
+        super::simulate::refuse_to_overwrite(path, &parameters, args.common.force)?;
+    }
+    let map = poincare_map(&exact_flow(p)?, &start, window(args.transient, args.t_end)?, section)?;
+    if let Some(path) = &args.common.output {
+        let columns = map.columns.iter().map(|name| Column {
+            name: name.clone(),
+            unit: "1".to_owned(),
+            values: ColumnData::F64(map.column(name).unwrap_or_default()),
+        });
+        let metadata = vec![
+            ("stickslip".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
+            ("parameters".to_owned(), parameters.to_string()),
+        ];
+        write_table(path, &Table { metadata, columns: columns.collect() })?;
+    }
+    if args.common.json {
+        let document = Document::new("poincare", parameters)
+            .with("columns", json!(map.columns))
+            .with("points", json!(map.points))
+            .with("diverged", json!(matches!(map.outcome, Outcome::Diverged { .. })));
+        return print(&document.text()?).map(|()| Verdict::Done);
+    }
+    print(&format!("{} points on the {name} section", map.points.len()))?;
+    Ok(Verdict::Done)
+}
