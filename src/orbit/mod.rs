@@ -10,6 +10,7 @@ mod floquet;
 mod limit_cycle;
 mod shooting;
 mod special;
+mod special_curve;
 
 pub use bifurcation::Bifurcation;
 pub use branch::{Branch, BranchPoint, Heading, PseudoArclength};
@@ -18,3 +19,4 @@ pub use floquet::FloquetMultipliers;
 pub use limit_cycle::limit_cycle;
 pub use shooting::{PeriodicOrbit, shoot, shoot_section};
 pub use special::SpecialPoint;
+pub use special_curve::SpecialCurve;
