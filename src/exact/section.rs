@@ -27,6 +27,10 @@ const V1: usize = 2;
 /// Switches in which each cycle must close: two slip phases and as many more as small reversals between them can cause.
 const SWITCHES_PER_CYCLE: usize = 16;
 
+/// A start that decelerates less than this is taken for the equilibrium of slip at f = +1 (x1 = x1*, v = 0), which Newton's method
+/// would otherwise find as an orbit of any period.
+const LEAST_DECELERATION: f64 = 1e-9;
+
 /// Derivatives of the state at one time with respect to the starting state and to parameters.
 #[derive(Debug, Clone)]
 pub(super) struct Sensitivity {
@@ -139,7 +143,7 @@ impl TwoMassFlow {
         let (switches, time) = (SWITCHES_PER_CYCLE * cycles, 2.0 * LONGEST_HALF_PERIOD * cycles as f64);
         let mut events = self.first_switches(initial, time, switches)?;
         let acceleration = self.acceleration1(initial);
-        if acceleration >= 0.0 {
+        if acceleration > -LEAST_DECELERATION {
             return Err(ExactError::NotAReversal { x1: start[0], x2: start[1], v2: start[2], acceleration });
         }
         let closes = |event: &Event| event.kind == EventKind::SlipToStick && event.state.slider_forces[0] > 0.0;

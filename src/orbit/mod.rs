@@ -11,6 +11,7 @@ mod limit_cycle;
 mod measures;
 mod shooting;
 mod special;
+mod special_curve;
 
 pub use bifurcation::Bifurcation;
 pub use branch::{Branch, BranchPoint, Heading, PseudoArclength};
@@ -20,3 +21,4 @@ pub use limit_cycle::limit_cycle;
 pub use measures::OrbitMeasures;
 pub use shooting::{PeriodicOrbit, shoot, shoot_section};
 pub use special::SpecialPoint;
+pub use special_curve::SpecialCurve;

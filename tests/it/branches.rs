@@ -94,3 +94,22 @@ fn a_branch_that_cannot_go_on_says_where_and_why() {
     assert!(matches!(&error, OrbitError::StepTooSmall { at, .. } if (at[3] - 1.0).abs() < 1e-5), "{error}");
     assert!(error.to_string().contains("gamma = 1.0"), "{error}");
 }
+
+#[test]
+fn the_limit_cycle_has_the_digits_computed_elsewhere() {
+    // At xi1 = -0.06, computed outside this project: to the last digit given.
+    let orbit = limit_cycle(nominal(), exact_at).unwrap();
+    for (found, expected, unit) in [
+        (orbit.section[0], 1.2226496, 1e-7),
+        (orbit.section[1], 0.9043979, 1e-7),
+        (orbit.section[2], -0.5377904, 1e-7),
+        (orbit.angular_frequency(), 0.98948851, 1e-8),
+    ] {
+        assert!((found - expected).abs() < 0.51 * unit, "{found} {expected}");
+    }
+    let [pair, conjugate, real] = orbit.section_multipliers();
+    for (found, expected) in [(pair, Complex::new(0.977968, 0.248221)), (real, Complex::new(0.262700, 0.0))] {
+        assert!((found - expected).norm() < 1e-6, "{found} {expected}");
+    }
+    assert_eq!(pair.conj(), conjugate);
+}

@@ -20,6 +20,7 @@ mod exact_energy;
 #[cfg(feature = "render")]
 mod film;
 mod general_solver;
+mod harmonic_balance;
 mod hopf;
 #[cfg(feature = "engine")]
 mod hysteresis;
@@ -41,6 +42,7 @@ mod shaders;
 mod small_disk;
 #[cfg(feature = "render")]
 mod small_scene;
+mod special_curves;
 mod store;
 mod symmetry;
 mod tangent;
