@@ -12,6 +12,7 @@ mod convergence;
 #[cfg(feature = "render")]
 mod demonstration;
 mod derivatives;
+mod diagram;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
@@ -30,6 +31,7 @@ mod numerical_damping;
 mod overlays;
 #[cfg(feature = "render")]
 mod pictures;
+mod poincare;
 mod prescribed;
 mod reference_trajectory;
 mod scenes;
