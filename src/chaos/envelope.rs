@@ -11,10 +11,7 @@ use crate::dynamics::{Motion, State};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TurningPoint {
     pub(super) time: f64,
-    /// `x1` is a maximum here.
     pub(super) state: State,
-    /// Whether it was a maximum already, before mirroring.
-    pub(super) maximum: bool,
 }
 
 pub(super) fn turning_points<M: Motion>(motion: &M, from: f64) -> Result<Vec<TurningPoint>, M::Error> {
@@ -22,7 +19,6 @@ pub(super) fn turning_points<M: Motion>(motion: &M, from: f64) -> Result<Vec<Tur
     let mirrored = |Crossing { time, state, upwards }| TurningPoint {
         time,
         state: if upwards { state.mirrored() } else { state },
-        maximum: !upwards,
     };
     Ok(found.into_iter().map(mirrored).collect())
 }

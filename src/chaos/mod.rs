@@ -5,16 +5,20 @@
 
 mod average;
 mod crossing;
+mod diagram;
 mod envelope;
 mod error;
 mod lyapunov;
+mod motion_class;
 mod poincare;
 mod rotation;
 mod window;
 mod zero_one;
 
+pub use diagram::{DiagramPlan, DiagramRow, DivergenceEdge, amplitude_diagram, divergence_edge};
 pub use error::ChaosError;
 pub use lyapunov::{ConvergencePoint, LyapunovOutcome, LyapunovPlan, LyapunovSpectrum, lyapunov_spectrum};
+pub use motion_class::{Classification, Criteria, Evidence, MotionClass, classify};
 pub use poincare::{PoincareMap, PoincareSection, poincare_map};
 pub use rotation::{Rotation, torus_rotation};
 pub use window::Window;

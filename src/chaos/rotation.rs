@@ -62,7 +62,10 @@ fn rotation_of(returns: &[TurningPoint]) -> Result<Rotation, ChaosError> {
     let (Some(first), Some(last), true) = (returns.first(), returns.last(), found >= FEWEST_RETURNS) else {
         return Err(ChaosError::TooShort { quantity: QUANTITY, of: "turning points", needed: FEWEST_RETURNS, found });
     };
-    let steps = angular_steps(&plane(returns));
+    let Some(points) = plane(returns) else {
+        return Err(ChaosError::NotWinding { returns: found, turns: 0.0 });
+    };
+    let steps = angular_steps(&points);
     let turns = steps.iter().sum::<f64>() / TAU;
     if turns.abs() < 1.0 {
         return Err(ChaosError::NotWinding { returns: found, turns });
@@ -81,18 +84,18 @@ fn rotation_of(returns: &[TurningPoint]) -> Result<Rotation, ChaosError> {
     })
 }
 
-/// `(x2, v2)` of each return, centred and scaled.
-fn plane(returns: &[TurningPoint]) -> Vec<[f64; 2]> {
+/// `(x2, v2)` of each return, centred and scaled; `None` where they coincide to rounding.
+fn plane(returns: &[TurningPoint]) -> Option<Vec<[f64; 2]>> {
     let axes: [fn(&State) -> f64; 2] = [|state| state.positions[1], |state| state.velocities[1]];
     let count = returns.len() as f64;
     let [first, second] = axes.map(|axis| {
         let values: Vec<f64> = returns.iter().map(|point| axis(&point.state)).collect();
         let mean = values.iter().sum::<f64>() / count;
         let deviation = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt();
-        let scale = if deviation > SMALLEST_RADIUS { 1.0 / deviation } else { 0.0 };
-        values.into_iter().map(|v| (v - mean) * scale).collect::<Vec<f64>>()
+        let scaled = values.into_iter().map(|v| (v - mean) / deviation).collect::<Vec<f64>>();
+        (deviation > SMALLEST_RADIUS).then_some(scaled)
     });
-    first.into_iter().zip(second).map(|(a, b)| [a, b]).collect()
+    Some(first?.into_iter().zip(second?).map(|(a, b)| [a, b]).collect())
 }
 
 /// Angles from each point to the next, in (-pi, pi].
@@ -124,7 +127,7 @@ mod tests {
             .map(|n| {
                 let phase = rotation * n + 0.3 * (rotation * n).sin();
                 let (x2, v2) = (0.9 + radius * phase.cos(), -0.5 + 0.3 * radius * (phase + 0.4).sin());
-                TurningPoint { time: 3.2 * n, state: State::two_mass([1.2, x2, 0.0, v2, 1.0]), maximum: true }
+                TurningPoint { time: 3.2 * n, state: State::two_mass([1.2, x2, 0.0, v2, 1.0]) }
             })
             .collect()
     }

@@ -13,6 +13,7 @@ mod convergence;
 #[cfg(feature = "render")]
 mod demonstration;
 mod derivatives;
+mod diagram;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
@@ -34,6 +35,7 @@ mod orbits;
 mod overlays;
 #[cfg(feature = "render")]
 mod pictures;
+mod poincare;
 mod prescribed;
 mod reference_trajectory;
 mod scenes;
