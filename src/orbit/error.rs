@@ -37,6 +37,8 @@ pub enum OrbitError {
         "the {kind:?} at {from:?} to {to:?} was found at {found:?}, outside: follow the branch with a smaller largest step"
     )]
     OutsideBracket { kind: Bifurcation, from: Vec<f64>, to: Vec<f64>, found: Vec<f64> },
+    #[error("no branch of another period or symmetry leaves a {kind:?} point: only those where a multiplier is -1")]
+    NoBranchLeaves { kind: Bifurcation },
     #[error("a {kind:?} curve needs two different parameters, not {parameter} twice")]
     SameParameter { kind: Bifurcation, parameter: &'static str },
 }
