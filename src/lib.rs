@@ -22,9 +22,9 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`model`] | chain of N oscillators, Jenkins elements, self-excitation, units, linear modes, energy ledger |
-//! | [`dynamics`] | what all solvers share: states, trajectories, flows, maps |
+//! | [`dynamics`] | what all solvers share: states, trajectories, flows and their tangents, maps |
 //! | [`exact`] | closed-form flow in each contact state, certified events |
-//! | [`orbit`] | limit cycles by shooting |
+//! | [`orbit`] | limit cycles by shooting, Floquet multipliers, continuation, bifurcations |
 //! | `engine` | the rig in Rapier (feature `engine`) |
 //! | [`compare`] | distances, observed order, verdicts |
 //! | [`scene`] | scene files |

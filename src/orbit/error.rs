@@ -37,6 +37,14 @@ pub enum OrbitError {
         "the {kind:?} at {from:?} to {to:?} was found at {found:?}, outside: follow the branch with a smaller largest step"
     )]
     OutsideBracket { kind: Bifurcation, from: Vec<f64>, to: Vec<f64>, found: Vec<f64> },
+    #[error(
+        "a {kind:?} point has no pair of complex multipliers on the unit circle: criticality is one of Neimark-Sacker points"
+    )]
+    NoPair { kind: Bifurcation },
+    #[error(
+        "the normal form is {outer:e} at the larger radius and {inner:e} at the smaller, allowed is a relative difference of {allowed}: a resonance or a change of criticality is near"
+    )]
+    Undecided { outer: f64, inner: f64, allowed: f64 },
     #[error("no branch of another period or symmetry leaves a {kind:?} point: only those where a multiplier is -1")]
     NoBranchLeaves { kind: Bifurcation },
     #[error("a {kind:?} curve needs two different parameters, not {parameter} twice")]
