@@ -32,7 +32,7 @@ fn simulate(case: &Case) -> Trajectory {
     let Initial::State { state } = case.initial else { panic!("the built-in scene gives its state") };
     let rig = TwoMassRig::new(case.parameters).unwrap();
     let interval = case.frame_interval() / 7.0;
-    let flow = EngineFlow::new(rig.chain(), EngineSettings::dividing(interval, case.step)).unwrap();
+    let flow = EngineFlow::new(rig.chain(), EngineSettings::dividing(interval, case.longest_step)).unwrap();
     flow.trajectory(&State::two_mass(state), Sampling { interval, t_end: case.duration }).unwrap()
 }
 

@@ -22,7 +22,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`model`] | chain of N oscillators, Jenkins elements, self-excitation, units, linear modes, energy ledger |
-//! | [`dynamics`] | what all solvers share: states, trajectories, flows, maps |
+//! | [`dynamics`] | what all solvers share: states, trajectories, flows and their tangents, maps |
 //! | [`exact`] | closed-form flow in each contact state, certified events |
 //! | [`orbit`] | periodic orbits: shooting, Floquet multipliers, continuation, special points |
 //! | [`chaos`] | Poincare maps, amplitude diagrams, rotation numbers, 0-1 test, Lyapunov spectra |

@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 #[command(after_help = "Example:\n  stickslip branch --from 0 --to -0.25 --json")]
 pub struct BranchArgs {
     /// Points of larger xi1 are left out.
-    #[arg(long, allow_negative_numbers = true, default_value_t = 0.0)]
+    #[arg(long, allow_hyphen_values = true, default_value_t = 0.0)]
     from: f64,
     /// Points of smaller xi1 are left out.
-    #[arg(long, allow_negative_numbers = true, default_value_t = -1.0)]
+    #[arg(long, allow_hyphen_values = true, default_value_t = -1.0)]
     to: f64,
     /// The branch ends at this amplitude of mass 1.
     #[arg(long, default_value_t = 50.0)]

@@ -10,16 +10,16 @@ use std::path::{Path, PathBuf};
 #[command(next_help_heading = "Rig")]
 pub struct RigArgs {
     /// Damping of the in-phase mode, negative: self-excitation.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     pub xi1: Option<f64>,
     /// Damping of the out-of-phase mode.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     pub xi2: Option<f64>,
     /// Coupling stiffness.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     pub kappa: Option<f64>,
     /// Friction intensity, greater than 0 and at most 1.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     pub gamma: Option<f64>,
 }
 
@@ -40,10 +40,10 @@ pub struct EngineArgs {
     #[arg(long)]
     pub substeps: Option<usize>,
     /// Steps per period of the sticking in-phase mode.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     pub steps_per_period: Option<f64>,
     /// Length of a step, in place of --steps-per-period.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true, conflicts_with = "steps_per_period")]
     pub dt: Option<f64>,
 }
 
@@ -67,11 +67,23 @@ impl RigArgs {
         rig.kappa = self.kappa.unwrap_or(rig.kappa);
         rig.gamma = self.gamma.unwrap_or(rig.gamma);
         scene.rig = Some(rig);
+        // What the scene says of its motion need not hold for another rig.
+        scene.title = "Self-excited rig with dry friction".to_owned();
+        scene.caption.clear();
         Ok(())
     }
 }
 
 impl EngineArgs {
+    pub fn is_given(&self) -> bool {
+        self.precision.is_some()
+            || self.joints.is_some()
+            || self.scheme.is_some()
+            || self.substeps.is_some()
+            || self.steps_per_period.is_some()
+            || self.dt.is_some()
+    }
+
     pub fn apply(&self, scene: &mut Scene) {
         let engine = &mut scene.engine;
         engine.precision = self.precision.unwrap_or(engine.precision);
@@ -91,7 +103,7 @@ impl EngineArgs {
 #[command(next_help_heading = "Film")]
 pub struct FilmArgs {
     /// Length of the motion, in the units of the scene.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     pub t_end: Option<f64>,
     /// Picture size in pixels.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
@@ -100,7 +112,7 @@ pub struct FilmArgs {
     #[arg(long)]
     pub fps: Option<u32>,
     /// Time of the motion in one second of film, in the units of the scene.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     pub speed: Option<f64>,
 }
 

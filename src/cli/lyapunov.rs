@@ -15,10 +15,10 @@ use serde_json::{Value, json};
 #[command(after_help = "Example:\n  stickslip lyapunov --xi1 -0.155 --t-end 20000 --json")]
 pub struct LyapunovArgs {
     /// End of the motion.
-    #[arg(long, default_value_t = 20_000.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 20_000.0, allow_hyphen_values = true)]
     t_end: f64,
     /// Length of its beginning that is not averaged over.
-    #[arg(long, default_value_t = 5000.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 5000.0, allow_hyphen_values = true)]
     transient: f64,
     /// Which perturbation of the limit cycle the motion starts with.
     #[arg(long, default_value_t = 0)]

@@ -4,6 +4,7 @@ mod analysis;
 mod branch;
 mod case_args;
 mod common;
+mod diagram;
 mod film;
 mod generate;
 mod hopf;
@@ -44,11 +45,13 @@ enum Command {
     Hopf(hopf::HopfArgs),
     Lyapunov(lyapunov::LyapunovArgs),
     Poincare(poincare::PoincareArgs),
+    Diagram(diagram::DiagramArgs),
     /// Print the JSON Schema of scene files.
     Schema(generate::SchemaArgs),
     /// Print shell completions.
     Completions(generate::CompletionsArgs),
     /// Print the manual page.
+    #[command(after_help = "Example:\n  stickslip man > stickslip.1")]
     Man,
 }
 
@@ -86,6 +89,7 @@ pub fn main() -> ExitCode {
         Command::Hopf(args) => hopf::run(&args),
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Poincare(args) => poincare::run(&args),
+        Command::Diagram(args) => diagram::run(&args),
         Command::Schema(args) => generate::schema(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man => generate::man(),

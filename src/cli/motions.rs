@@ -7,10 +7,12 @@ use crate::exact;
 use crate::model::{RigParameters, TwoMassRig};
 use crate::orbit::{OrbitError, PeriodicOrbit, limit_cycle};
 use crate::scene::{Case, Initial, Joints, MotionKind, Precision, Scheme};
-use anyhow::Context;
+use anyhow::{Context, ensure};
 
 /// Longest time between two samples of a filmed motion: lines drawn through them look smooth.
 const FINEST: f64 = 0.04;
+/// Steps a run may take: half an hour at 2 microseconds each.
+const MAX_STEPS: f64 = 1e9;
 
 /// The limit cycle of the two-mass rig from the exact flow.
 pub fn exact_limit_cycle(parameters: RigParameters) -> Result<PeriodicOrbit, OrbitError> {
@@ -19,8 +21,12 @@ pub fn exact_limit_cycle(parameters: RigParameters) -> Result<PeriodicOrbit, Orb
 
 /// The state at time 0.
 pub fn start(case: &Case) -> anyhow::Result<State> {
-    if let (Some(motion), Initial::State { state }) = (case.prescribed, case.initial) {
-        return Ok(State::two_mass([0.0, 0.0, motion.velocity(0.0), 0.0, state[4]]));
+    if let Some(motion) = case.prescribed {
+        let slider_force = match case.initial {
+            Initial::State { state } => state[4],
+            Initial::LimitCycle { .. } => 0.0,
+        };
+        return Ok(State::two_mass([0.0, 0.0, motion.velocity(0.0), 0.0, slider_force]));
     }
     match case.initial {
         Initial::State { state } => Ok(State::two_mass(state)),
@@ -44,8 +50,8 @@ pub fn film_sampling(case: &Case) -> Sampling {
 /// interpolation.
 pub fn engine_settings(case: &Case, sampling: Sampling) -> EngineSettings {
     let step = match case.engine.dt {
-        Some(_) => case.step,
-        None => EngineSettings::dividing(sampling.interval, case.step).step,
+        Some(_) => case.longest_step,
+        None => EngineSettings::dividing(sampling.interval, case.longest_step).step,
     };
     EngineSettings {
         step,
@@ -65,10 +71,36 @@ pub fn engine_settings(case: &Case, sampling: Sampling) -> EngineSettings {
     }
 }
 
+/// Refuses steps of which the motion has none, too many, or that no engine could take.
+fn check_step(case: &Case, step: f64) -> anyhow::Result<()> {
+    let (duration, time) = (case.duration, case.scales.time);
+    ensure!(
+        step <= duration,
+        "engine.dt = {:e} is longer than the motion, {:e}: the engine would take no step",
+        step * time,
+        duration * time
+    );
+    let steps = duration / step;
+    ensure!(
+        steps <= MAX_STEPS,
+        "the engine would take {steps:e} steps, at most {MAX_STEPS:e} are allowed: shorten the motion or lengthen the step"
+    );
+    // The faster sticking mode; beyond 2/omega the leapfrog is unstable and what it shows is no motion of the rig.
+    let limit = 2.0 / (1.0 + 2.0 * case.parameters.kappa).sqrt();
+    ensure!(
+        step < limit,
+        "engine.dt = {:e} is not allowed: it must be below {:e}, where the engine's integrator becomes unstable",
+        step * time,
+        limit * time
+    );
+    Ok(())
+}
+
 /// The motion in Rapier.
 pub fn in_engine(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result<Recording> {
     let rig = TwoMassRig::new(case.parameters)?;
     let settings = engine_settings(case, sampling);
+    check_step(case, settings.step)?;
     Ok(match case.prescribed {
         Some(motion) => engine::PrescribedFlow::new(rig.chain(), motion, settings)?.record(start, sampling)?,
         None => EngineFlow::new(rig.chain(), settings)?

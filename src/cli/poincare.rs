@@ -27,10 +27,10 @@ pub struct PoincareArgs {
     #[arg(long, value_enum, default_value_t = SectionName::Fast)]
     section: SectionName,
     /// End of the motion.
-    #[arg(long, default_value_t = 10_000.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 10_000.0, allow_hyphen_values = true)]
     t_end: f64,
     /// Length of its beginning that is left out.
-    #[arg(long, default_value_t = 5000.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 5000.0, allow_hyphen_values = true)]
     transient: f64,
     /// Start here instead of beside the limit cycle.
     #[arg(long, value_name = "x1,x2,v1,v2,f", allow_hyphen_values = true, value_parser = parse_initial)]

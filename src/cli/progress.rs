@@ -3,6 +3,7 @@
 use crate::film;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between two plain lines.
@@ -52,6 +53,28 @@ impl Progress {
                 }
             }
             Self::Silent => {}
+        }
+    }
+}
+
+/// Progress of a long computation on several threads: one line now and then on standard error.
+pub struct Heartbeat {
+    quiet: bool,
+    what: &'static str,
+    unit: &'static str,
+    last: Mutex<Instant>,
+}
+
+impl Heartbeat {
+    pub fn new(quiet: bool, what: &'static str, unit: &'static str) -> Self {
+        Self { quiet, what, unit, last: Mutex::new(Instant::now()) }
+    }
+
+    pub fn at(&self, done: usize, all: usize) {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if !self.quiet && last.elapsed() >= HEARTBEAT {
+            eprintln!("{}: {done} of {all} {}", self.what, self.unit);
+            *last = Instant::now();
         }
     }
 }

@@ -9,11 +9,14 @@ use super::trajectory_table::from_table;
 use super::{Verdict, motions};
 use crate::dynamics::Trajectory;
 use crate::scene::{Case, Film};
-use crate::store::{Existing, Origin, OutputDir, read_table};
+use crate::store::{Existing, Origin, OutputDir, read_table, read_whole, sha256_hex};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use std::path::{Path, PathBuf};
+
+/// A period of 2 pi has some 25 samples then; fewer show corners that are not there.
+const COARSEST_SAMPLE: f64 = 0.25;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Solver {
@@ -29,7 +32,7 @@ pub struct RenderArgs {
     #[command(flatten)]
     input: SceneArgs,
     /// A trajectory written by `simulate`, in place of a scene.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "solver"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "solver", "xi1", "xi2", "kappa", "gamma", "precision", "joints", "scheme", "substeps", "steps_per_period", "dt"])]
     trajectory: Option<PathBuf>,
     /// Which solution to show.
     #[arg(long = "with", id = "solver", value_enum, default_value_t = Solver::Rapier)]
@@ -55,7 +58,10 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
     let input = args.input.scene.as_deref().or(args.trajectory.as_deref());
     // The plain name belongs to `run`.
     let directory = args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{solver}")));
-    let parameters = json!({ "case": case, "with": solver, "trajectory": args.trajectory });
+    // Two trajectories of one case differ by how they were computed: the bytes tell.
+    let stored = args.trajectory.as_deref().map(|path| anyhow::Ok(sha256_hex(&read_whole(path)?))).transpose()?;
+    let parameters =
+        json!({ "case": case, "with": solver, "trajectory": args.trajectory, "trajectory_sha256": stored });
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
     let made = film::make(&case, &trajectory, &args.draw, &output, &mut progress)?;
@@ -86,6 +92,12 @@ impl RenderArgs {
         ensure!(
             self.input.film.t_end.is_none(),
             "--t-end cannot change a stored trajectory: give it to `simulate`, or a scene to `render`"
+        );
+        let coarsest = trajectory.samples.windows(2).map(|w| w[1].time - w[0].time).fold(0.0, f64::max);
+        ensure!(
+            coarsest <= COARSEST_SAMPLE,
+            "{} has samples {coarsest} apart, too coarse to show the motion: at most {COARSEST_SAMPLE} non-dimensional time units; make it with --sample 0.05",
+            path.display()
         );
         let mut film = Film { speed: Film::default().speed * case.scales.time, ..Film::default() };
         [film.width, film.height] = self.input.film.size.unwrap_or([film.width, film.height]);

@@ -43,14 +43,14 @@ pub struct SimulateArgs {
     #[arg(long = "with", value_enum, default_value_t = Solver::Exact)]
     solver: Solver,
     /// End of the trajectory, in the units of the scene; 200 without a scene.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long, allow_hyphen_values = true)]
     t_end: Option<f64>,
     /// State at time 0, in the units of the scene. Without it: on the limit cycle at a reversal of mass 1, x2 moved by 0.001.
     /// An element with |f| = 1 starts slipping if v1 (where v1 = 0, its first nonzero derivative) has the sign of f.
     #[arg(long, value_name = "x1,x2,v1,v2,f", allow_hyphen_values = true, value_parser = parse_initial)]
     initial: Option<Initial>,
     /// Time between two rows, in the units of the scene.
-    #[arg(long, value_name = "DT", default_value_t = 0.1, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DT", default_value_t = 0.1, allow_hyphen_values = true)]
     sample: f64,
     /// Units of the file written; the JSON document is non-dimensional.
     #[arg(long, value_enum, default_value_t = Units::Nondimensional)]
@@ -67,6 +67,11 @@ pub struct SimulateArgs {
 }
 
 pub fn run(args: &SimulateArgs) -> anyhow::Result<Verdict> {
+    ensure!(
+        args.solver == Solver::Rapier || !args.engine.is_given(),
+        "options of the engine decide nothing about the exact solution: add --with rapier or leave them out"
+    );
+    ensure!(args.events.is_none() || args.events != args.common.output, "-o and --events name the same file: give two");
     let case = args.case()?;
     let scales = args.file_scales(&case)?;
     let sampling = args.sampling(&case)?;
@@ -102,6 +107,8 @@ impl SimulateArgs {
         let mut scene = load(self.scene.as_deref())?;
         if self.scene.is_none() {
             // Of the built-in scene only the nominal rig is taken.
+            scene.title = "Self-excited rig with dry friction".to_owned();
+            scene.caption.clear();
             scene.initial = Initial::default();
             scene.simulation = Simulation { duration: 200.0, ..Simulation::default() };
         }
@@ -154,6 +161,7 @@ impl SimulateArgs {
 
 /// An existing file is replaced only if it says that it holds the same result.
 pub fn refuse_to_overwrite(path: &Path, parameters: &Value, force: bool) -> anyhow::Result<()> {
+    ensure!(!path.is_dir(), "{} is a directory: name a file, ending in .csv or .parquet", path.display());
     if force || !path.exists() {
         return Ok(());
     }

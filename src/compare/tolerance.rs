@@ -1,6 +1,6 @@
 //! How far a correct second-order solver may be from the exact motion, with reasons.
 //!
-//! For a step h (angular frequency near 1), the largest component A of the motion (at least 1) and time t:
+//! For a step h (angular frequency near 1), the largest component A of the motion and time t:
 //!
 //! ```text
 //! state, amplitude   A h^2 (1 + t/12) e^(lambda t)
@@ -100,7 +100,6 @@ impl Tolerances {
     #[must_use]
     pub fn of(expected: &Expectation, scale: f64, t_end: f64) -> Self {
         let Expectation { horizon, step, growth_rate, unit_roundoff, .. } = *expected;
-        let scale = scale.max(1.0);
         let growth = |t: f64| (growth_rate * t).exp();
         // Per unit of the scale, along a motion whose differences do not grow.
         let local = |t: f64| step * step * (1.0 + t / 12.0) + unit_roundoff * rounding_growth(t, step);

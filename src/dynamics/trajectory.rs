@@ -15,7 +15,8 @@ impl Sampling {
     /// Sample times, computed as `n * interval`, never accumulated. A sample that would fall within a millionth of an interval
     /// of `t_end` is the one at `t_end`.
     pub fn times(self) -> impl Iterator<Item = f64> {
-        let whole = (self.t_end / self.interval - 1e-6).ceil().max(0.0) as u64;
+        // Time 0 is always a sample, however long the interval.
+        let whole = (self.t_end / self.interval - 1e-6).ceil().max(if self.t_end > 0.0 { 1.0 } else { 0.0 }) as u64;
         (0..whole).map(move |n| n as f64 * self.interval).chain(std::iter::once(self.t_end))
     }
 }
@@ -105,5 +106,6 @@ mod tests {
         // 0.1 * 3 exceeds 0.3 by rounding: still one sample there.
         assert_eq!(times(0.1, 0.3).len(), 4);
         assert_eq!(times(1.0, 0.0), [0.0]);
+        assert_eq!(times(1e10, 5.0), [0.0, 5.0]);
     }
 }

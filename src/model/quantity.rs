@@ -33,6 +33,10 @@ pub enum Range {
     Finite,
     NonNegative,
     Positive,
+    /// Non-dimensional damping: beyond it the rig is so stiff that neither solution is of use.
+    Damping,
+    /// Non-dimensional coupling stiffness.
+    Coupling,
     /// The open-closed interval (0, 1], the range of the friction intensity gamma.
     UnitInterval,
 }
@@ -44,6 +48,8 @@ impl Range {
                 Self::Finite => true,
                 Self::NonNegative => value >= 0.0,
                 Self::Positive => value > 0.0,
+                Self::Damping => value.abs() <= 100.0,
+                Self::Coupling => (0.0..=1e4).contains(&value),
                 Self::UnitInterval => value > 0.0 && value <= 1.0,
             }
     }
@@ -53,6 +59,8 @@ impl Range {
             Self::Finite => "a finite number",
             Self::NonNegative => "finite and not negative",
             Self::Positive => "finite and greater than 0",
+            Self::Damping => "from -100 to 100",
+            Self::Coupling => "from 0 to 10000",
             Self::UnitInterval => "greater than 0 and at most 1",
         }
     }

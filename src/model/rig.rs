@@ -65,11 +65,11 @@ impl RigParameters {
     /// Passes the parameters through if each lies in its range.
     ///
     /// # Errors
-    /// [`ParameterError::OutOfRange`] for NaN, infinities, negative kappa and gamma outside (0, 1].
+    /// [`ParameterError::OutOfRange`] for NaN, infinities, damping beyond 100, kappa outside 0 to 10000 and gamma outside (0, 1].
     pub fn validated(self) -> Result<Self, ParameterError> {
-        Range::Finite.check("xi1", self.xi1)?;
-        Range::Finite.check("xi2", self.xi2)?;
-        Range::NonNegative.check("kappa", self.kappa)?;
+        Range::Damping.check("xi1", self.xi1)?;
+        Range::Damping.check("xi2", self.xi2)?;
+        Range::Coupling.check("kappa", self.kappa)?;
         Range::UnitInterval.check("gamma", self.gamma)?;
         Ok(self)
     }

@@ -6,14 +6,17 @@ use super::error::OrbitError;
 use super::family::Family;
 use super::shooting::PeriodicOrbit;
 use super::special::{Extended, SpecialPoint};
-use crate::dynamics::SectionMap;
+use crate::dynamics::{Closure, SectionMap};
 use crate::model::{RigParameter, RigParameters};
-use nalgebra::DVector;
+use nalgebra::{DVector, Matrix3, Vector3};
 
 /// Largest step unless another is asked for, relative to the state.
 const LARGEST_STEP: f64 = 0.05;
 /// A special point may lie this far outside the bracket of its branch points, in lengths of their chord.
 const BRACKET_SLACK: f64 = 0.5;
+
+/// Distance from a crossing at which the other branch is picked up, relative to the state.
+const DEPARTURE: f64 = 0.01;
 
 /// Which way a branch is followed first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,6 +76,28 @@ where
         let start = family.unknowns(&orbit.section, &parameters);
         let direction = DVector::from_row_slice(&[0.0, 0.0, 0.0, heading.sign()]);
         let curve = Curve::new(&family, start, &direction, StepControl::up_to(LARGEST_STEP))?;
+        Ok(Self { family, curve, largest_amplitude: f64::INFINITY, started: false, over: false })
+    }
+
+    /// The branch of the twice iterated map that leaves a branch where a multiplier is -1: the asymmetric orbits at a
+    /// [`Bifurcation::BranchPoint`] of symmetric ones, the doubled ones at a [`Bifurcation::PeriodDoubling`]. Their mirror images,
+    /// or the same orbits one cycle later, are the other half of that branch.
+    ///
+    /// # Errors
+    /// [`OrbitError::NoBranchLeaves`] at other bifurcations, and as for [`Self::new`].
+    pub fn switched(map_at: F, special: &SpecialPoint, varied: RigParameter) -> Result<Self, OrbitError> {
+        let closure = match (special.kind, special.orbit.closure) {
+            (Bifurcation::BranchPoint, Closure::HalfPeriod) => Closure::FullPeriod { cycles: 1 },
+            (Bifurcation::PeriodDoubling, Closure::FullPeriod { cycles }) => Closure::FullPeriod { cycles: 2 * cycles },
+            (kind, _) => return Err(OrbitError::NoBranchLeaves { kind }),
+        };
+        let family = Family { map_at, base: special.parameters, varied: vec![varied], closure };
+        let u = family.unknowns(&special.orbit.section, &special.parameters);
+        let scales = family.scales(&u);
+        let leaving = flipped_direction(&special.orbit.jacobian).push(0.0);
+        let tangent = DVector::from_column_slice(leaving.as_slice());
+        let tangent = &tangent / tangent.component_div(&scales).norm();
+        let curve = Curve::leaving(&family, &u, tangent, DEPARTURE, StepControl::up_to(LARGEST_STEP))?;
         Ok(Self { family, curve, largest_amplitude: f64::INFINITY, started: false, over: false })
     }
 
@@ -154,6 +179,15 @@ where
         self.over = point.as_ref().map_or(true, |point| point.orbit.amplitude() > self.largest_amplitude);
         Some(point)
     }
+}
+
+/// The eigenvector of the multiplier nearest to -1: the direction that `J + I` shortens most.
+fn flipped_direction(jacobian: &Matrix3<f64>) -> Vector3<f64> {
+    let shifted = jacobian + Matrix3::identity();
+    let squared = (shifted.transpose() * shifted).symmetric_eigen();
+    let direction: Vector3<f64> = squared.eigenvectors.column(squared.eigenvalues.imin()).into_owned();
+    // Its sign is arbitrary; the larger x1 makes it definite.
+    if direction[0] < 0.0 { -direction } else { direction }
 }
 
 /// A branch with its special points, both in the order in which they are met.

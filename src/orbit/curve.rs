@@ -73,6 +73,22 @@ impl Curve {
         Ok(Self { u, tangent, step: FIRST_STEP.min(control.largest_step), control })
     }
 
+    /// Starts on the curve that leaves `u` in the direction `tangent` (of length 1 in scaled unknowns), `step` away from `u`:
+    /// where curves cross, the tangent is not determined at `u` itself.
+    pub(super) fn leaving(
+        equations: &impl Equations,
+        u: &DVector<f64>,
+        tangent: DVector<f64>,
+        step: f64,
+        control: StepControl,
+    ) -> Result<Self, OrbitError> {
+        let scales = equations.scales(u);
+        let at_crossing = Self { u: u.clone(), tangent, step, control };
+        let predicted = u + &at_crossing.tangent * step;
+        let (found, _) = at_crossing.corrected(equations, predicted, &scales)?;
+        Self::new(equations, found, &at_crossing.tangent, control)
+    }
+
     /// The same with another longest step.
     pub(super) fn limited_to(self, largest_step: f64) -> Self {
         let step = self.step.min(largest_step);

@@ -22,9 +22,9 @@ pub enum OrbitError {
     )]
     NoConvergence { at: Vec<f64>, residual: f64, steps: usize },
     #[error(
-        "the limit cycle could be followed only to xi1 = {reached}, not to {wanted}: a fold lies between ({source})"
+        "there is no limit cycle on the lower branch at xi1 = {wanted}: the branch turns at a fold just below xi1 = {reached}. Choose xi1 above it"
     )]
-    Stuck { reached: f64, wanted: f64, source: Box<OrbitError> },
+    BeyondFold { reached: f64, wanted: f64 },
     #[error(
         "the step would turn the tangent by {turn:.3} rad (allowed {allowed_turn:.3}) and lean by {lean:.3} rad (allowed {allowed_lean:.3}): it may lead to another branch; take shorter steps"
     )]
@@ -37,6 +37,16 @@ pub enum OrbitError {
         "the {kind:?} at {from:?} to {to:?} was found at {found:?}, outside: follow the branch with a smaller largest step"
     )]
     OutsideBracket { kind: Bifurcation, from: Vec<f64>, to: Vec<f64>, found: Vec<f64> },
+    #[error(
+        "a {kind:?} point has no pair of complex multipliers on the unit circle: criticality is one of Neimark-Sacker points"
+    )]
+    NoPair { kind: Bifurcation },
+    #[error(
+        "the normal form is {outer:e} at the larger radius and {inner:e} at the smaller, allowed is a relative difference of {allowed}: a resonance or a change of criticality is near"
+    )]
+    Undecided { outer: f64, inner: f64, allowed: f64 },
+    #[error("no branch of another period or symmetry leaves a {kind:?} point: only those where a multiplier is -1")]
+    NoBranchLeaves { kind: Bifurcation },
     #[error("a {kind:?} curve needs two different parameters, not {parameter} twice")]
     SameParameter { kind: Bifurcation, parameter: &'static str },
 }

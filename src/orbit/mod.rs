@@ -3,6 +3,7 @@
 
 mod bifurcation;
 mod branch;
+mod criticality;
 mod curve;
 mod error;
 mod family;
@@ -15,6 +16,7 @@ mod special_curve;
 
 pub use bifurcation::Bifurcation;
 pub use branch::{Branch, BranchPoint, Heading, PseudoArclength};
+pub use criticality::{Criticality, NormalForm};
 pub use error::OrbitError;
 pub use floquet::FloquetMultipliers;
 pub use limit_cycle::limit_cycle;

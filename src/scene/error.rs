@@ -45,8 +45,4 @@ pub enum Fault {
         "the film would have {found} frames: it must have 1 to {allowed}. Change simulation.duration, film.fps or film.speed"
     )]
     FrameCount { found: f64, allowed: u64 },
-    #[error(
-        "the engine would take {found:.0} steps: at most {allowed:.0} are allowed. Shorten simulation.duration or lengthen the step"
-    )]
-    StepCount { found: f64, allowed: f64 },
 }

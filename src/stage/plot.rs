@@ -122,7 +122,8 @@ impl Plot {
             text: self.title.to_owned(),
         });
         out.push(self.text(area.max + Vec2::new(0.0, 14.0) * s, Anchor::Right, self.x_label.clone()));
-        out.push(self.text(area.min + Vec2::new(-6.0, -5.0) * s, Anchor::Right, self.y_label.clone()));
+        let place = Vec2::new(self.panel.min.x + 12.0 * s, area.min.y - 5.0 * s);
+        out.push(self.text(place, Anchor::Left, self.y_label.clone()));
     }
 
     fn draw_rule(&self, ends: [Vec2; 2], zero: bool, out: &mut Vec<OverlayItem>) {

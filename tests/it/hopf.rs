@@ -3,10 +3,10 @@
 //! Woiwode, Vakakis & Krack, Nonlinear Dynamics 106 (2021) 1659-1673; the numbers to nine digits were computed outside this project.
 
 use super::orbits::{exact_at, from_the_sticking_limit, nominal};
-use stickslip::dynamics::State;
+use stickslip::dynamics::{HalfPeriodMap, ReversalPoint, State};
 use stickslip::exact::TwoMassFlow;
 use stickslip::model::{RigParameters, TwoMassRig};
-use stickslip::orbit::{Bifurcation, Branch, FloquetMultipliers, SpecialPoint, limit_cycle};
+use stickslip::orbit::{Bifurcation, Branch, Criticality, FloquetMultipliers, NormalForm, SpecialPoint, limit_cycle};
 
 /// Secondary Hopf points between the sticking limit and the first fold, or amplitude 20 where there is no fold before.
 fn hopf_points(p: RigParameters) -> Vec<SpecialPoint> {
@@ -89,4 +89,28 @@ fn the_multipliers_are_those_of_long_simulations() {
     // Rounding 1e-14/1e-7 in the differences, amplified some ten times by the elimination.
     assert!((trace - 2.0 * pair.re).abs() < 1e-5, "{trace} {}", 2.0 * pair.re);
     assert!((squared_norm - pair.norm_sqr()).abs() < 1e-5, "{squared_norm} {}", pair.norm_sqr());
+}
+
+#[test]
+fn the_torus_is_born_as_the_normal_form_says() {
+    let [hopf] = hopf_points(nominal())[..] else { panic!("one secondary Hopf point expected") };
+    let normal_form = NormalForm::of(&exact_at(hopf.parameters).unwrap(), &hopf).unwrap();
+    // Supercritical: simulations beyond the point settle on a torus, whose radius (root mean square of x1 - x1* over returns)
+    // grows from nothing with the square root of the distance.
+    assert_eq!(normal_form.criticality(), Criticality::Supercritical);
+    let radius = |distance: f64| {
+        let p = RigParameters { xi1: hopf.parameters.xi1 - distance, ..nominal() };
+        let (flow, orbit) = (exact_at(p).unwrap(), limit_cycle(p, exact_at).unwrap());
+        let mut section = orbit.section + ReversalPoint::new(0.05, 0.0, 0.0);
+        let mut squares = 0.0;
+        for n in 0..40_000 {
+            section = flow.half_return(section).unwrap().image;
+            squares += if n < 30_000 { 0.0 } else { (section[0] - orbit.section[0]).powi(2) };
+        }
+        (squares / 1e4).sqrt()
+    };
+    // Multipliers grow by about 0.35 per unit of xi1: at 5e-4 the torus is reached like e^(-2 * 1.7e-4 n), to e^-10 here. The next
+    // order is relative 2e-3/0.035, the distance over xi1 itself.
+    let (near, far) = (radius(5e-4), radius(2e-3));
+    assert!((far / near - 2.0).abs() < 0.12, "{near} {far}");
 }

@@ -1,5 +1,6 @@
 //! Integration tests: one binary, a file per concern.
 
+mod asymmetric;
 #[cfg(feature = "render")]
 mod back_ends;
 mod branches;

@@ -76,7 +76,7 @@ fn rotation(xi1: f64, settling: f64) -> Rotation {
 
 #[test]
 fn the_torus_turns_like_its_multiplier_near_the_secondary_hopf_point() {
-    let argument = |xi1: f64| orbit_at(xi1).half_period_multipliers()[0].arg().abs();
+    let argument = |xi1: f64| orbit_at(xi1).section_multipliers()[0].arg().abs();
     // 4.3e-4 and 8.5e-4 beyond the secondary Hopf point at -0.034575.
     let deviations = [-0.035, -0.035425].map(|xi1| {
         let found = rotation(xi1, 300_000.0);
