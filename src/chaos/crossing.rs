@@ -6,8 +6,8 @@
 
 use crate::dynamics::{Motion, State};
 
-/// About 25 samples per oscillation of the rig.
-const SCAN_STEP: f64 = 0.25;
+/// About 12 samples per oscillation of the rig.
+const SCAN_STEP: f64 = 0.5;
 /// Steps of the search below this many roundings of the time end it.
 const ROUNDINGS: f64 = 4.0;
 /// False-position steps; about 8 are needed, and halving alone would take 44.

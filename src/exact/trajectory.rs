@@ -67,13 +67,16 @@ impl ExactTrajectory {
     /// # Errors
     /// [`ExactError::OutsideSpan`] for other times.
     pub fn state_at(&self, time: f64) -> Result<Instant, ExactError> {
-        let outside = ExactError::OutsideSpan { found: time, end: self.end };
-        if !(0.0..=self.end).contains(&time) {
-            return Err(outside);
-        }
-        let piece = &self.pieces[self.index_at(time)];
+        let piece = self.piece_at(time)?;
         let state = piece.evaluator(&self.chain).state(since_start(piece, time));
         Ok(Instant { state, contacts: piece.contacts.to_vec() })
+    }
+
+    fn piece_at(&self, time: f64) -> Result<&Piece, ExactError> {
+        if !(0.0..=self.end).contains(&time) {
+            return Err(ExactError::OutsideSpan { found: time, end: self.end });
+        }
+        Ok(&self.pieces[self.index_at(time)])
     }
 
     /// The last piece that has begun by `time`.
@@ -122,7 +125,8 @@ impl Motion for ExactTrajectory {
     }
 
     fn state(&self, time: f64) -> Result<State, ExactError> {
-        self.state_at(time).map(|instant| instant.state)
+        let piece = self.piece_at(time)?;
+        Ok(piece.evaluator(&self.chain).state(since_start(piece, time)))
     }
 }
 
