@@ -22,7 +22,7 @@ pub struct Scene {
     pub rig_si: Option<DimensionalRig>,
     #[serde(default)]
     pub initial: Initial,
-    /// Moves mass 1 as `amplitude sin(angular_frequency t)` and holds mass 2; Of `initial` only the slider force of a state then counts; it is 0 without one.
+    /// Moves mass 1 as `amplitude sin(angular_frequency t)` and holds mass 2. Of `initial` only the slider force of a state counts then; it is 0 without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prescribed: Option<PrescribedMotion>,
     #[serde(default)]

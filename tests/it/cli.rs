@@ -232,6 +232,177 @@ fn a_run_that_disagrees_with_the_exact_solution_exits_with_one() {
 }
 
 #[test]
+fn the_built_in_scene_agrees_over_its_whole_length_and_films_twenty_seconds() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("run");
+    // The engine's steps depend on the time between frames a little; the motion and the length of the film do not.
+    let json = document(&[
+        "run",
+        "--size",
+        "64x64",
+        "--fps",
+        "4",
+        "--renderer",
+        "cpu",
+        "-o",
+        output.to_str().unwrap(),
+        "--json",
+        "-q",
+    ]);
+    assert_eq!(json["agreement"]["passed"], true);
+    assert_eq!(json["agreement"]["horizon"], 160.0);
+    // 160 time units at 8 a second, and the frame at time 0.
+    assert_eq!(json["frames"]["count"], 4 * 20 + 1);
+    // The motion is the torus: maxima of x1 from 0.88 to 1.53.
+    let table = stickslip::store::read_table(&output.join("engine.csv")).unwrap();
+    let stickslip::store::ColumnData::F64(x1) = &table.column("x1").unwrap().values else { panic!("x1 is numbers") };
+    let maxima = x1.windows(3).filter(|w| w[1] > w[0] && w[1] > w[2]).map(|w| w[1]);
+    let (low, high) = maxima.fold((f64::MAX, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
+    assert!((0.85..0.95).contains(&low) && (1.5..1.56).contains(&high), "{low} {high}");
+}
+
+#[test]
+fn a_run_killed_at_any_moment_ends_with_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |name: &str| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_stickslip"));
+        command.args(["run", "--t-end", "24", "--size", "256x144", "--fps", "20", "--renderer", "cpu", "-q", "-o"]);
+        command.arg(folder.path().join(name)).stdout(std::process::Stdio::null());
+        command
+    };
+    assert!(run("whole").status().unwrap().success());
+    let mut interrupted = 0;
+    for milliseconds in [20, 60, 120, 200, 300] {
+        let mut child = run("killed").spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(milliseconds));
+        interrupted += u32::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert!(interrupted > 0, "every run had ended before it was killed: nothing was tested");
+    assert!(run("killed").status().unwrap().success());
+    let bytes = |name: &str, file: &str| fs::read(folder.path().join(name).join(file)).unwrap();
+    let frames: Vec<String> = (0..=60).map(|n| format!("frames/{n:06}.png")).collect();
+    let files = ["film.mp4", "frames.json", "engine.csv", "exact.csv"].into_iter().map(str::to_owned).chain(frames);
+    for file in files {
+        assert_eq!(bytes("whole", &file), bytes("killed", &file), "{file}");
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error_that_keeps_what_is_finished() {
+    let Some(disk) = crate::small_disk::SmallDisk::mount(400) else { return };
+    let output = disk.path().join("run");
+    let args = ["run", "--t-end", "16", "--size", "320x180", "--renderer", "cpu", "-q", "-o", output.to_str().unwrap()];
+    refused(&args, &["No space left on device", "finished files are kept"]);
+    let table = disk.path().join("t.csv");
+    refused(&["simulate", "--t-end", "2000", "-o", table.to_str().unwrap()], &["No space left on device"]);
+    assert!(!table.exists());
+    disk.grow(40_000);
+    document(&[
+        "run",
+        "--t-end",
+        "16",
+        "--size",
+        "320x180",
+        "--renderer",
+        "cpu",
+        "-q",
+        "--json",
+        "-o",
+        output.to_str().unwrap(),
+    ]);
+}
+
+#[test]
+fn a_film_of_a_trajectory_that_has_changed_is_not_taken_for_the_old_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let (table, output) = (folder.path().join("t.csv"), folder.path().join("film"));
+    let (table, output) = (table.to_str().unwrap(), output.to_str().unwrap());
+    let render =
+        ["render", "--trajectory", table, "--size", "64x64", "--fps", "2", "--renderer", "cpu", "-o", output, "--json"];
+    document(&["simulate", "--t-end", "8", "-o", table, "--json"]);
+    document(&render);
+    document(&["simulate", "--t-end", "8", "--with", "rapier", "-o", table, "--force", "--json"]);
+    refused(&render, &["other parameters", "--force"]);
+    refused(&["render", "--trajectory", table, "--xi1", "-0.1"], &["--xi1"]);
+    document(&["simulate", "--t-end", "8", "--sample", "2", "-o", table, "--force", "--json"]);
+    refused(&render, &["too coarse"]);
+}
+
+#[test]
+fn steps_that_no_engine_could_take_are_refused() {
+    refused(&["simulate", "--with", "rapier", "--dt", "1e9"], &["engine.dt = 1e9", "no step"]);
+    refused(&["simulate", "--with", "rapier", "--dt", "3"], &["engine.dt = 3e0", "unstable"]);
+    refused(&["simulate", "--with", "rapier", "--t-end", "1e12", "--sample", "1e6"], &["steps"]);
+    refused(&["simulate", "--with", "exact", "--dt", "0.01"], &["--with rapier"]);
+    refused(&["simulate", "--xi1", "1e4"], &["from -100 to 100"]);
+    // Exponents are numbers too.
+    assert_eq!(document(&["simulate", "--xi1", "-6e-2", "--t-end", "1", "--json"])["parameters"]["xi1"], -0.06);
+}
+
+#[test]
+fn a_prescribed_motion_needs_no_initial_state() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene_file(folder.path(), "title = \"x\"\n[prescribed]\namplitude = 2.0\nangular_frequency = 1.0\n");
+    let json = document(&["simulate", "--scene", &scene, "--t-end", "3", "--json"]);
+    assert_eq!(json["final"]["x2"], 0.0);
+    assert!((json["final"]["x1"].as_f64().unwrap() - 2.0 * 3.0_f64.sin()).abs() < 1e-14);
+}
+
+#[test]
+fn the_limit_cycle_is_that_of_the_lower_branch_or_none() {
+    // Published for this rig outside this project, to the digits given.
+    let json = document(&["orbit", "--xi1", "-0.06", "--json"]);
+    for (name, expected) in [("x1", 1.2226496), ("x2", 0.9043979), ("v2", -0.5377904)] {
+        assert!((json["section"][name].as_f64().unwrap() - expected).abs() < 5e-8, "{name}");
+    }
+    assert!((json["angular_frequency"].as_f64().unwrap() - 0.98948851).abs() < 5e-9);
+    assert_eq!(json["floquet_multipliers"].as_array().unwrap().len(), 5);
+    assert!(json["trivial_multiplier_error"].as_f64().unwrap() < 1e-10);
+    // Beyond the fold there is none, however far.
+    for xi1 in ["-0.2151", "-0.5", "-1", "-5", "-50"] {
+        refused(&["orbit", "--xi1", xi1], &["fold"]);
+    }
+    let upper = document(&["orbit", "--xi1", "-0.2", "--upper", "--json"]);
+    assert!(upper["a1"].as_f64().unwrap() > 2.7628, "beyond the amplitude of the fold");
+}
+
+#[test]
+fn the_analysis_commands_print_their_documents() {
+    let hopf = document(&["hopf", "--json"]);
+    // Computed outside this project to nine digits.
+    assert!((hopf["secondary_hopf"][0]["xi1"].as_f64().unwrap() - -0.034575371).abs() < 1e-8);
+    assert_eq!(hopf["secondary_hopf"][0]["side"], "start");
+    assert!((hopf["fold"]["xi1"].as_f64().unwrap() - -0.215051734).abs() < 1e-8);
+    let rows = document(&["hopf", "--vary", "kappa=0.07:0.08:3", "--json"]);
+    // kappa = 0.075 lies in the range where stability is regained before the fold.
+    assert_eq!(rows["rows"][1]["secondary_hopf"].as_array().unwrap().len(), 2);
+    assert_eq!(rows["rows"][1]["secondary_hopf"][1]["side"], "end");
+    let branch = document(&["branch", "--amplitude", "3", "--json"]);
+    assert_eq!(branch["special_points"][0]["type"], "neimark_sacker");
+    assert_eq!(branch["special_points"][1]["type"], "fold");
+    let diverged = document(&["lyapunov", "--xi1", "-0.19", "--json"]);
+    assert_eq!((&diverged["diverged"], &diverged["exponents"]), (&Value::Bool(true), &Value::Null));
+    let points = document(&["poincare", "--t-end", "1000", "--transient", "500", "--json"]);
+    let x2 = points["columns"].as_array().unwrap().iter().position(|c| c == "x2").unwrap();
+    assert!(points["points"].as_array().unwrap().iter().all(|p| p[x2].as_f64().unwrap().abs() < 1e-12));
+    let outcomes =
+        |json: &Value| json["rows"].as_array().unwrap().iter().map(|r| r["outcome"].clone()).collect::<Vec<_>>();
+    let diagram = document(&["diagram", "--from=-0.02", "--to=-0.2", "--count", "4", "--json"]);
+    assert_eq!(outcomes(&diagram), ["limit_cycle", "torus", "torus", "diverged"]);
+    for (args, words) in [
+        (["diagram", "--count=1"], "count"),
+        (["lyapunov", "--t-end=100"], "--transient"),
+        (["hopf", "--vary=mass=1:2:3"], "kappa"),
+        (["branch", "--amplitude=0.5"], "--amplitude"),
+        (["poincare", "--transient=-1"], "--transient"),
+    ] {
+        refused(&args, &[words]);
+    }
+}
+
+#[test]
 fn generated_texts_are_there() {
     let schema = document(&["schema", "scene"]);
     assert_eq!(schema["title"], "Scene");

@@ -35,7 +35,7 @@ fn every_built_in_scene_is_the_file_of_its_name() {
 fn the_committed_schema_is_fresh() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/scene.schema.json");
     let committed: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-    assert_eq!(committed, Scene::json_schema(), "renew it: stickslip schema scene > assets/scene.schema.json");
+    assert!(committed == Scene::json_schema(), "renew it: stickslip schema scene > assets/scene.schema.json");
 }
 
 #[test]
