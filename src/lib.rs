@@ -30,6 +30,7 @@
 //! | [`compare`] | distances, observed order, verdicts |
 //! | [`scene`] | scene files |
 //! | `render`, `stage`, `film` | drawing, what to draw, frame sequences and video (feature `render`) |
+//! | `report` | charts (feature `cli`) |
 //! | [`store`] | atomic files, output directories, tables |
 //! | `cli` | the command line (feature `cli`) |
 //!
@@ -52,6 +53,8 @@ pub mod model;
 pub mod orbit;
 #[cfg(feature = "render")]
 pub mod render;
+#[cfg(feature = "cli")]
+pub mod report;
 pub mod scene;
 #[cfg(feature = "render")]
 pub mod stage;

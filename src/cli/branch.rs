@@ -3,7 +3,9 @@
 use super::Verdict;
 use super::analysis::{RigInput, exact_flow, lower_branch, special_json};
 use super::common::{Common, Document, print};
+use super::plot::PlotArgs;
 use crate::orbit::{Branch, BranchPoint, Heading};
+use crate::report::{Chart, Series, Style, Tint};
 use anyhow::ensure;
 use clap::Args;
 use serde_json::{Value, json};
@@ -24,11 +26,14 @@ pub struct BranchArgs {
     #[command(flatten)]
     rig: RigInput,
     #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
     common: Common,
 }
 
 pub fn run(args: &BranchArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("branch")?;
+    args.plot.check(args.common.force)?;
     let (from, to) = (args.from.max(args.to), args.from.min(args.to));
     ensure!(
         from > to && from - to <= f64::MAX,
@@ -49,6 +54,7 @@ pub fn run(args: &BranchArgs) -> anyhow::Result<Verdict> {
         branch.points.iter().filter(|point| inside(point.parameters.xi1)).map(row).collect::<anyhow::Result<_>>()?;
     let special: Vec<Value> =
         branch.special.iter().filter(|point| inside(point.parameters.xi1)).map(special_json).collect();
+    args.plot.draw(|| Ok(chart(&rows, &special)))?;
     if args.common.json {
         let parameters = json!({
             "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "from": from, "to": to, "amplitude": args.amplitude,
@@ -70,7 +76,7 @@ pub fn run(args: &BranchArgs) -> anyhow::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-fn row(point: &BranchPoint) -> anyhow::Result<Value> {
+pub fn row(point: &BranchPoint) -> anyhow::Result<Value> {
     let measures = point.orbit.measures(&exact_flow(point.parameters)?)?;
     let leading = point.orbit.section_multipliers()[0];
     Ok(json!({
@@ -78,4 +84,28 @@ fn row(point: &BranchPoint) -> anyhow::Result<Value> {
         "angular_frequency": point.orbit.angular_frequency(), "energy": measures.mean_energy,
         "leading_multiplier": [leading.re, leading.im], "stable": point.orbit.stable(),
     }))
+}
+
+/// Amplitude over xi1: stable and unstable parts and the special points.
+pub fn chart(rows: &[Value], special: &[Value]) -> Chart {
+    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    let part = |stable: bool| {
+        let shown = |row: &Value| row["stable"] == stable;
+        rows.iter().map(|row| (number(&row["xi1"]), if shown(row) { number(&row["a1"]) } else { f64::NAN })).collect()
+    };
+    let points = |kind: &str| {
+        special.iter().filter(|p| p["type"] == kind).map(|p| (number(&p["xi1"]), number(&p["a1"]))).collect()
+    };
+    let series = |label: &str, points, style, tint| Series { label: label.to_owned(), points, style, tint };
+    Chart {
+        title: "Limit cycles over the damping of the in-phase mode".to_owned(),
+        x_label: "ξ₁".to_owned(),
+        y_label: "amplitude a₁".to_owned(),
+        series: vec![
+            series("stable", part(true), Style::Line, Tint::Blue),
+            series("unstable", part(false), Style::Line, Tint::Orange),
+            series("secondary Hopf", points("neimark_sacker"), Style::Markers, Tint::Vermillion),
+            series("fold", points("fold"), Style::Markers, Tint::Green),
+        ],
+    }
 }

@@ -2,13 +2,15 @@
 
 use super::analysis::{RigInput, exact_flow, window};
 use super::common::{Common, Document, print};
+use super::plot::PlotArgs;
 use super::progress::Heartbeat;
 use super::{Verdict, motions};
-use crate::chaos::{DiagramPlan, DiagramRow, amplitude_diagram, divergence_edge};
+use crate::chaos::{DiagramPlan, DiagramRow, MotionClass, amplitude_diagram, divergence_edge};
 use crate::dynamics::State;
 use crate::exact::TwoMassFlow;
 use crate::model::RigParameters;
 use crate::orbit::OrbitError;
+use crate::report::{Chart, Series, Style, Tint};
 use crate::store::{Column, ColumnData, Table, read_whole, write_atomically, write_table};
 use anyhow::{Context, ensure};
 use clap::Args;
@@ -46,10 +48,13 @@ pub struct DiagramArgs {
     #[command(flatten)]
     rig: RigInput,
     #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
     common: Common,
 }
 
 pub fn run(args: &DiagramArgs) -> anyhow::Result<Verdict> {
+    args.plot.check(args.common.force)?;
     ensure!(
         (2..=MOST_VALUES).contains(&args.count) && args.from.is_finite() && args.to.is_finite() && args.from != args.to,
         "--from {} --to {} --count {} is no range: give two different numbers and a count from 2 to {MOST_VALUES}",
@@ -70,6 +75,7 @@ pub fn run(args: &DiagramArgs) -> anyhow::Result<Verdict> {
     if let Some(path) = &args.common.output {
         write_table(path, &table(&rows, &parameters))?;
     }
+    args.plot.draw(|| Ok(chart(&rows)))?;
     let edge = divergence_edge(&rows);
     if args.common.json {
         let rows: Vec<Value> = rows
@@ -192,5 +198,27 @@ fn table(rows: &[DiagramRow], parameters: &Value) -> Table {
             column("a1_min", "1", ColumnData::OptionalF64(rows.iter().map(|row| row.a1_min).collect())),
             column("outcome", "", ColumnData::Text(rows.iter().map(word).collect())),
         ],
+    }
+}
+
+/// Largest and smallest amplitude over xi1, coloured by the kind of motion (Fig. 5).
+fn chart(rows: &[DiagramRow]) -> Chart {
+    let classes = [
+        ("equilibrium", MotionClass::Equilibrium, Tint::Grey),
+        ("limit cycle", MotionClass::LimitCycle, Tint::Green),
+        ("torus", MotionClass::Torus, Tint::Blue),
+        ("chaos", MotionClass::Chaos, Tint::Vermillion),
+    ];
+    let series = classes.into_iter().filter_map(|(label, class, tint)| {
+        let of_class = rows.iter().filter(|row| row.outcome == class);
+        let points: Vec<_> =
+            of_class.flat_map(|row| [row.a1_max, row.a1_min].into_iter().flatten().map(|a1| (row.value, a1))).collect();
+        (!points.is_empty()).then(|| Series { label: label.to_owned(), points, style: Style::Dots, tint })
+    });
+    Chart {
+        title: "Largest and smallest amplitude of mass 1".to_owned(),
+        x_label: "ξ₁".to_owned(),
+        y_label: "a₁, max and min".to_owned(),
+        series: series.collect(),
     }
 }

@@ -1,10 +1,12 @@
 //! `hopf`: secondary Hopf points and fold of the limit cycle, for one parameter set or over a range of one parameter.
 
 use super::Verdict;
-use super::analysis::{RigInput, lower_branch};
+use super::analysis::{RigInput, lower_branch, special_json};
 use super::common::{Common, Document, print};
+use super::plot::PlotArgs;
 use crate::model::{RigParameter, RigParameters};
 use crate::orbit::{Bifurcation, Branch, Heading, SpecialPoint};
+use crate::report::{Chart, Series, Style, Tint};
 use anyhow::{Context, ensure};
 use clap::Args;
 use rayon::prelude::*;
@@ -13,6 +15,8 @@ use serde_json::{Map, Value, json};
 /// Amplitude of mass 1 up to which points beyond the fold are looked for.
 const LARGEST_AMPLITUDE: f64 = 50.0;
 const MOST_VALUES: usize = 100_000;
+/// Amplitude up to which the picture of one parameter set shows the branch.
+const CHART_AMPLITUDE: f64 = 6.0;
 
 /// Secondary Hopf points and the fold of the limit cycle, located by Newton's method on the extended system.
 #[derive(Debug, Args)]
@@ -23,6 +27,8 @@ pub struct HopfArgs {
     vary: Option<Vary>,
     #[command(flatten)]
     rig: RigInput,
+    #[command(flatten)]
+    plot: PlotArgs,
     #[command(flatten)]
     common: Common,
 }
@@ -54,10 +60,14 @@ fn parse_vary(text: &str) -> Result<Vary, String> {
 
 pub fn run(args: &HopfArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("hopf")?;
+    args.plot.check(args.common.force)?;
     let p = args.rig.parameters()?;
     let mut parameters = json!({"xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma});
     let document = match args.vary {
-        None => points(p)?.into_iter().fold(Document::new("hopf", parameters), |d, (key, value)| d.with(&key, value)),
+        None => {
+            args.plot.draw(|| branch_chart(p))?;
+            points(p)?.into_iter().fold(Document::new("hopf", parameters), |d, (key, value)| d.with(&key, value))
+        }
         Some(vary) => {
             let name = vary.parameter.name();
             parameters["vary"] = json!({"name": name, "from": vary.from, "to": vary.to, "count": vary.count});
@@ -65,12 +75,52 @@ pub fn run(args: &HopfArgs) -> anyhow::Result<Verdict> {
                 .into_par_iter()
                 .map(|n| row(p, vary, n).with_context(|| format!("value {n} of {name}")))
                 .collect::<anyhow::Result<_>>()?;
+            args.plot.draw(|| Ok(curve_chart(name, &rows)))?;
             Document::new("hopf", parameters).with("rows", json!(rows))
         }
     };
     // A short table is no easier to read than the document.
     print(&document.text()?)?;
     Ok(Verdict::Done)
+}
+
+/// The branch up to twice the amplitude of a fold near the nominal one.
+fn branch_chart(p: RigParameters) -> anyhow::Result<Chart> {
+    let branch = Branch::follow(lower_branch(p, Heading::Decreasing)?.up_to_amplitude(CHART_AMPLITUDE), |_| false)?;
+    let rows: Vec<Value> = branch.points.iter().map(super::branch::row).collect::<anyhow::Result<_>>()?;
+    let special: Vec<Value> = branch.special.iter().map(special_json).collect();
+    Ok(super::branch::chart(&rows, &special))
+}
+
+/// Critical damping over the parameter varied (Fig. 9 b-d): exact points, fold, and equation (31).
+fn curve_chart(name: &str, rows: &[Value]) -> Chart {
+    let at = |row: &Value| row[name].as_f64().unwrap_or(f64::NAN);
+    let points = |list: &'static str, side: &'static str| {
+        let of = move |row: &Value| {
+            row[list]
+                .as_array()
+                .into_iter()
+                .flatten()
+                .filter(move |p| p["side"] == side)
+                .map(|p| p["xi1"].as_f64().unwrap_or(f64::NAN))
+                .collect::<Vec<_>>()
+        };
+        rows.iter().flat_map(|row| of(row).into_iter().map(move |xi1| (at(row), xi1))).collect::<Vec<_>>()
+    };
+    let folds = rows.iter().map(|row| (at(row), row["fold"]["xi1"].as_f64().unwrap_or(f64::NAN))).collect();
+    let series = |label: &str, points, style, tint| Series { label: label.to_owned(), points, style, tint };
+    Chart {
+        title: format!("Secondary Hopf points of the limit cycle over {name}"),
+        x_label: name.to_owned(),
+        y_label: "ξ₁".to_owned(),
+        series: vec![
+            series("fold", folds, Style::Line, Tint::Grey),
+            series("equation (31), start", points("analytic", "start"), Style::Line, Tint::Blue),
+            series("equation (31), end", points("analytic", "end"), Style::Line, Tint::Orange),
+            series("exact, start", points("secondary_hopf", "start"), Style::Markers, Tint::Blue),
+            series("exact, end", points("secondary_hopf", "end"), Style::Markers, Tint::Orange),
+        ],
+    }
 }
 
 fn row(p: RigParameters, vary: Vary, n: usize) -> anyhow::Result<Value> {

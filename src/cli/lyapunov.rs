@@ -2,9 +2,12 @@
 
 use super::analysis::{RigInput, beside_the_cycle, exact_flow, window};
 use super::common::{Common, Document, print};
+use super::plot::PlotArgs;
 use super::{Verdict, case_args::parse_initial};
 use crate::chaos::{LyapunovOutcome, LyapunovPlan, lyapunov_spectrum};
+use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::Initial;
+use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
 
@@ -29,15 +32,19 @@ pub struct LyapunovArgs {
     #[command(flatten)]
     rig: RigInput,
     #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
     common: Common,
 }
 
 pub fn run(args: &LyapunovArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("lyapunov")?;
+    args.plot.check(args.common.force)?;
     let p = args.rig.parameters()?;
     let start = beside_the_cycle(p, args.initial, args.seed)?;
     let plan = LyapunovPlan::new(window(args.transient, args.t_end)?);
     let outcome = lyapunov_spectrum(&exact_flow(p)?, &start, plan)?;
+    args.plot.draw(|| convergence(&outcome, p.xi1))?;
     if !args.common.json {
         print(&match &outcome {
             LyapunovOutcome::Diverged { time, .. } => format!("diverged at t = {time}: no exponents"),
@@ -71,4 +78,22 @@ pub fn run(args: &LyapunovArgs) -> anyhow::Result<Verdict> {
     };
     print(&document.text()?)?;
     Ok(Verdict::Done)
+}
+
+/// Averages over the motion so far.
+fn convergence(outcome: &LyapunovOutcome, xi1: f64) -> anyhow::Result<Chart> {
+    let spectrum = outcome.spectrum().context("the motion diverged: there are no exponents to draw")?;
+    let tints = [Tint::Blue, Tint::Orange, Tint::Green, Tint::Vermillion, Tint::Purple];
+    let series = (0..spectrum.exponents.len()).zip(tints.into_iter().cycle()).map(|(i, tint)| Series {
+        label: format!("λ{} = {:.5} ± {:.1e}", i + 1, spectrum.exponents[i], spectrum.standard_errors[i]),
+        points: spectrum.convergence.iter().filter_map(|c| Some((c.t, *c.exponents.get(i)?))).collect(),
+        style: Style::Line,
+        tint,
+    });
+    Ok(Chart {
+        title: format!("Lyapunov exponents at ξ₁ = {xi1}"),
+        x_label: "averaging time".to_owned(),
+        y_label: "exponent".to_owned(),
+        series: series.collect(),
+    })
 }

@@ -11,6 +11,7 @@ mod hopf;
 mod lyapunov;
 mod motions;
 mod orbit;
+mod plot;
 mod poincare;
 mod progress;
 mod render;

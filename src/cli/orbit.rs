@@ -2,9 +2,13 @@
 
 use super::analysis::{RigInput, complex, complexes, exact_flow, lower_branch};
 use super::common::{Common, Document, print};
+use super::plot::PlotArgs;
 use super::{Verdict, motions};
+use crate::dynamics::{Flow, Sampling};
+use crate::exact::TwoMassFlow;
 use crate::model::RigParameters;
 use crate::orbit::{FloquetMultipliers, Heading, PeriodicOrbit, shoot};
+use crate::report::{Chart, Series, Style, Tint};
 use anyhow::{Context, bail};
 use clap::Args;
 use nalgebra::Complex;
@@ -23,16 +27,20 @@ pub struct OrbitArgs {
     #[command(flatten)]
     rig: RigInput,
     #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
     common: Common,
 }
 
 pub fn run(args: &OrbitArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("orbit")?;
+    args.plot.check(args.common.force)?;
     let p = args.rig.parameters()?;
     let orbit = if args.upper { upper(p)? } else { motions::exact_limit_cycle(p)? };
     let flow = exact_flow(p)?;
     let floquet = FloquetMultipliers::of(&flow, &orbit)?;
     let measures = orbit.measures(&flow)?;
+    args.plot.draw(|| phase_plane(&orbit, &flow, p.xi1))?;
     let [x1, x2, v2] = orbit.section.into();
     if args.common.json {
         let all: Vec<Complex<f64>> =
@@ -68,6 +76,24 @@ pub fn run(args: &OrbitArgs) -> anyhow::Result<Verdict> {
         orbit.residual,
     ))?;
     Ok(Verdict::Done)
+}
+
+/// Both masses over one period.
+fn phase_plane(orbit: &PeriodicOrbit, flow: &TwoMassFlow, xi1: f64) -> anyhow::Result<Chart> {
+    let sampling = Sampling { interval: orbit.period / 400.0, t_end: orbit.period };
+    let samples = flow.trajectory(&orbit.reversal(), sampling)?.samples;
+    let series = |mass: usize, tint| Series {
+        label: format!("mass {}", mass + 1),
+        points: samples.iter().map(|s| (s.state.positions[mass], s.state.velocities[mass])).collect(),
+        style: Style::Line,
+        tint,
+    };
+    Ok(Chart {
+        title: format!("Limit cycle at ξ₁ = {xi1}, {}", if orbit.stable() { "stable" } else { "unstable" }),
+        x_label: "displacement x".to_owned(),
+        y_label: "velocity v".to_owned(),
+        series: vec![series(0, Tint::Blue), series(1, Tint::Orange)],
+    })
 }
 
 /// The orbit at the same xi1 beyond the first fold: the branch is followed until it comes back to this xi1.

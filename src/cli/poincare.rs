@@ -2,11 +2,14 @@
 
 use super::analysis::{RigInput, beside_the_cycle, exact_flow, window};
 use super::common::{Common, Document, print};
+use super::plot::PlotArgs;
 use super::{Verdict, case_args::parse_initial, motions};
-use crate::chaos::{PoincareSection, poincare_map};
+use crate::chaos::{PoincareMap, PoincareSection, poincare_map};
 use crate::dynamics::Outcome;
+use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::Initial;
 use crate::store::{Column, ColumnData, Table, write_table};
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
@@ -38,10 +41,13 @@ pub struct PoincareArgs {
     #[command(flatten)]
     rig: RigInput,
     #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
     common: Common,
 }
 
 pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
+    args.plot.check(args.common.force)?;
     let p = args.rig.parameters()?;
     let start = beside_the_cycle(p, args.initial, 0)?;
     let (name, section) = match args.section {
@@ -71,6 +77,7 @@ pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
         ];
         write_table(path, &Table { metadata, columns: columns.collect() })?;
     }
+    args.plot.draw(|| section_chart(&map, name, p.xi1))?;
     if args.common.json {
         let document = Document::new("poincare", parameters)
             .with("columns", json!(map.columns))
@@ -80,4 +87,16 @@ pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
     }
     print(&format!("{} points on the {name} section", map.points.len()))?;
     Ok(Verdict::Done)
+}
+
+fn section_chart(map: &PoincareMap, name: &str, xi1: f64) -> anyhow::Result<Chart> {
+    let [across, up] = if name == "slow" { ["a1_deviation", "a2_deviation_rate"] } else { ["x1", "v1"] };
+    let column = |name: &str| map.column(name).with_context(|| format!("the section has no column {name}"));
+    let points = column(across)?.into_iter().zip(column(up)?).collect();
+    Ok(Chart {
+        title: format!("Poincare map on the {name} section at ξ₁ = {xi1}"),
+        x_label: across.to_owned(),
+        y_label: up.to_owned(),
+        series: vec![Series { label: String::new(), points, style: Style::Dots, tint: Tint::Blue }],
+    })
 }

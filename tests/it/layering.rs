@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Module and the modules of this crate it may import.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("render", &[]),
     ("store", &[]),
     ("model", &[]),
@@ -18,11 +18,12 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("compare", &["model", "dynamics"]),
     ("stage", &["scene", "model", "dynamics", "render"]),
     ("film", &["render", "store"]),
+    ("report", &["store"]),
     (
         "cli",
         &[
-            "chaos", "compare", "dynamics", "engine", "exact", "film", "model", "orbit", "render", "scene", "stage",
-            "store",
+            "chaos", "compare", "dynamics", "engine", "exact", "film", "model", "orbit", "render", "report", "scene",
+            "stage", "store",
         ],
     ),
 ];
