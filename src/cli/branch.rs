@@ -89,9 +89,11 @@ pub fn row(point: &BranchPoint) -> anyhow::Result<Value> {
 /// Amplitude over xi1: stable and unstable parts and the special points.
 pub fn chart(rows: &[Value], special: &[Value]) -> Chart {
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    // Each part goes on to the first point of the next, so that the line has no gap.
     let part = |stable: bool| {
-        let shown = |row: &Value| row["stable"] == stable;
-        rows.iter().map(|row| (number(&row["xi1"]), if shown(row) { number(&row["a1"]) } else { f64::NAN })).collect()
+        let shown = |n: usize| rows[n]["stable"] == stable || (n > 0 && rows[n - 1]["stable"] == stable);
+        let a1 = |n: usize| if shown(n) { number(&rows[n]["a1"]) } else { f64::NAN };
+        (0..rows.len()).map(|n| (number(&rows[n]["xi1"]), a1(n))).collect()
     };
     let points = |kind: &str| {
         special.iter().filter(|p| p["type"] == kind).map(|p| (number(&p["xi1"]), number(&p["a1"]))).collect()

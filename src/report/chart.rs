@@ -166,12 +166,16 @@ impl Chart {
                     }
                 }
             }
+            let style = series.style;
             if !series.label.is_empty() {
                 // An empty series carries the legend entry whatever the style.
-                context
-                    .draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?
-                    .label(&series.label)
-                    .legend(move |(x, y)| Rectangle::new([(x, y - 4), (x + 16, y + 4)], colour.filled()));
+                context.draw_series(std::iter::empty::<Circle<(f64, f64), i32>>())?.label(&series.label).legend(
+                    move |(x, y)| {
+                        let thick = if style == Style::Line { 1 } else { 5 };
+                        let ends = if style == Style::Line { (x, x + 18) } else { (x + 4, x + 14) };
+                        Rectangle::new([(ends.0, y - thick), (ends.1, y + thick)], colour.filled())
+                    },
+                );
             }
         }
         context

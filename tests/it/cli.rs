@@ -391,6 +391,9 @@ fn the_analysis_commands_print_their_documents() {
         |json: &Value| json["rows"].as_array().unwrap().iter().map(|r| r["outcome"].clone()).collect::<Vec<_>>();
     let diagram = document(&["diagram", "--from=-0.02", "--to=-0.2", "--count", "4", "--json"]);
     assert_eq!(outcomes(&diagram), ["limit_cycle", "torus", "torus", "diverged"]);
+    // Still leaving the cycle after 1500 time units: neighbours separate, but the motion settles on a torus.
+    let young = document(&["diagram", "--from=-0.044", "--to=-0.048", "--count", "5", "--json"]);
+    assert_eq!(outcomes(&young), ["torus"; 5]);
     for (args, words) in [
         (["diagram", "--count=1"], "count"),
         (["lyapunov", "--t-end=100"], "--transient"),
