@@ -1,11 +1,11 @@
 //! `hopf`: secondary Hopf points and fold of the limit cycle, for one parameter set or over a range of one parameter.
 
 use super::Verdict;
-use super::analysis::{RigInput, lower_branch, special_json};
+use super::analysis::{RigInput, exact_flow, lower_branch, special_json};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
 use crate::model::{RigParameter, RigParameters};
-use crate::orbit::{Bifurcation, Branch, Heading, SpecialPoint};
+use crate::orbit::{Bifurcation, Branch, Criticality, Heading, NormalForm, OrbitError, SpecialPoint};
 use crate::report::{Chart, Series, Style, Tint};
 use anyhow::{Context, ensure};
 use clap::Args;
@@ -148,8 +148,15 @@ fn points(p: RigParameters) -> anyhow::Result<Map<String, Value>> {
         .enumerate()
         .filter(|(_, point)| point.kind == Bifurcation::NeimarkSacker)
         .enumerate()
-        .map(|(order, (index, point))| (index, crossing(point, if order % 2 == 0 { "start" } else { "end" })))
-        .collect();
+        .map(|(order, (index, point))| {
+            let mut fields = crossing(point, if order % 2 == 0 { "start" } else { "end" });
+            // Beyond the fold another multiplier is unstable as well, and no torus is born that could be seen.
+            if index < fold_at {
+                fields["criticality"] = criticality(point)?;
+            }
+            Ok((index, fields))
+        })
+        .collect::<anyhow::Result<_>>()?;
     let part = |beyond: bool| {
         crossings.iter().filter(|(index, _)| (*index > fold_at) == beyond).map(|(_, v)| v.clone()).collect::<Vec<_>>()
     };
@@ -165,6 +172,19 @@ fn points(p: RigParameters) -> anyhow::Result<Map<String, Value>> {
     );
     fields.insert("analytic".to_owned(), analytic);
     Ok(fields)
+}
+
+/// Criticality by the normal form on the section; null where it is not decided: next to a resonance or a change of criticality, or where
+/// the motion leaves the neighbourhood of the orbit.
+fn criticality(point: &SpecialPoint) -> anyhow::Result<Value> {
+    match NormalForm::of(&exact_flow(point.parameters)?, point) {
+        Ok(form) => Ok(json!(match form.criticality() {
+            Criticality::Supercritical => "supercritical",
+            Criticality::Subcritical => "subcritical",
+        })),
+        Err(OrbitError::Undecided { .. } | OrbitError::Map { .. }) => Ok(Value::Null),
+        Err(error) => Err(error.into()),
+    }
 }
 
 fn crossing(point: &SpecialPoint, side: &str) -> Value {

@@ -374,6 +374,8 @@ fn the_analysis_commands_print_their_documents() {
     // Computed outside this project to nine digits.
     assert!((hopf["secondary_hopf"][0]["xi1"].as_f64().unwrap() - -0.034575371).abs() < 1e-8);
     assert_eq!(hopf["secondary_hopf"][0]["side"], "start");
+    // A stable torus is born there: the paper's motion passes from limit cycle to torus without a jump.
+    assert_eq!(hopf["secondary_hopf"][0]["criticality"], "supercritical");
     assert!((hopf["fold"]["xi1"].as_f64().unwrap() - -0.215051734).abs() < 1e-8);
     let rows = document(&["hopf", "--vary", "kappa=0.07:0.08:3", "--json"]);
     // kappa = 0.075 lies in the range where stability is regained before the fold.
