@@ -82,7 +82,8 @@ impl Expectation {
     }
 }
 
-/// No tolerance exceeds this part of the motion, however coarse the step or long the record: who reads *passed* may rely on 1 %.
+/// No tolerance of states, energy, or the cycles of a regular motion exceeds this part of the motion, however coarse the step or long the
+/// record: who reads *passed* may rely on 1 %. Averages of a chaotic motion are judged by their statistical error, which may be larger.
 pub const LARGEST_TOLERANCE: f64 = 0.01;
 
 /// What follows from an [`Expectation`] for motions whose largest component is `scale`, recorded up to `t_end`.

@@ -7,6 +7,8 @@ mod branches;
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(feature = "cli")]
+mod cli_analysis;
 #[cfg(feature = "engine")]
 mod compare;
 #[cfg(feature = "engine")]

@@ -1,0 +1,61 @@
+//! The commands of the exact bifurcation analysis as a user meets them.
+
+use crate::cli::{document, refused};
+use serde_json::Value;
+
+#[test]
+fn the_limit_cycle_is_that_of_the_lower_branch_or_none() {
+    // Published for this rig outside this project, to the digits given.
+    let json = document(&["orbit", "--xi1", "-0.06", "--json"]);
+    for (name, expected) in [("x1", 1.2226496), ("x2", 0.9043979), ("v2", -0.5377904)] {
+        assert!((json["section"][name].as_f64().unwrap() - expected).abs() < 5e-8, "{name}");
+    }
+    assert!((json["angular_frequency"].as_f64().unwrap() - 0.98948851).abs() < 5e-9);
+    assert_eq!(json["floquet_multipliers"].as_array().unwrap().len(), 5);
+    assert!(json["trivial_multiplier_error"].as_f64().unwrap() < 1e-10);
+    // Beyond the fold there is none, however far.
+    for xi1 in ["-0.2151", "-0.5", "-1", "-5", "-50"] {
+        refused(&["orbit", "--xi1", xi1], &["fold"]);
+    }
+    let upper = document(&["orbit", "--xi1", "-0.2", "--upper", "--json"]);
+    assert!(upper["a1"].as_f64().unwrap() > 2.7628, "beyond the amplitude of the fold");
+}
+
+#[test]
+fn the_analysis_commands_print_their_documents() {
+    let hopf = document(&["hopf", "--json"]);
+    // Computed outside this project to nine digits.
+    assert!((hopf["secondary_hopf"][0]["xi1"].as_f64().unwrap() - -0.034575371).abs() < 1e-8);
+    assert_eq!(hopf["secondary_hopf"][0]["side"], "start");
+    // A stable torus is born there: the paper's motion passes from limit cycle to torus without a jump.
+    assert_eq!(hopf["secondary_hopf"][0]["criticality"], "supercritical");
+    assert!((hopf["fold"]["xi1"].as_f64().unwrap() - -0.215051734).abs() < 1e-8);
+    let rows = document(&["hopf", "--vary", "kappa=0.07:0.08:3", "--json"]);
+    // kappa = 0.075 lies in the range where stability is regained before the fold.
+    assert_eq!(rows["rows"][1]["secondary_hopf"].as_array().unwrap().len(), 2);
+    assert_eq!(rows["rows"][1]["secondary_hopf"][1]["side"], "end");
+    let branch = document(&["branch", "--amplitude", "3", "--json"]);
+    assert_eq!(branch["special_points"][0]["type"], "neimark_sacker");
+    assert_eq!(branch["special_points"][1]["type"], "fold");
+    let diverged = document(&["lyapunov", "--xi1", "-0.19", "--json"]);
+    assert_eq!((&diverged["diverged"], &diverged["exponents"]), (&Value::Bool(true), &Value::Null));
+    let points = document(&["poincare", "--t-end", "1000", "--transient", "500", "--json"]);
+    let x2 = points["columns"].as_array().unwrap().iter().position(|c| c == "x2").unwrap();
+    assert!(points["points"].as_array().unwrap().iter().all(|p| p[x2].as_f64().unwrap().abs() < 1e-12));
+    let outcomes =
+        |json: &Value| json["rows"].as_array().unwrap().iter().map(|r| r["outcome"].clone()).collect::<Vec<_>>();
+    let diagram = document(&["diagram", "--from=-0.02", "--to=-0.2", "--count", "4", "--json"]);
+    assert_eq!(outcomes(&diagram), ["limit_cycle", "torus", "torus", "diverged"]);
+    // Still leaving the cycle after 1500 time units: neighbours separate, but the motion settles on a torus.
+    let young = document(&["diagram", "--from=-0.044", "--to=-0.048", "--count", "5", "--json"]);
+    assert_eq!(outcomes(&young), ["torus"; 5]);
+    for (args, words) in [
+        (["diagram", "--count=1"], "count"),
+        (["lyapunov", "--t-end=100"], "--transient"),
+        (["hopf", "--vary=mass=1:2:3"], "kappa"),
+        (["branch", "--amplitude=0.5"], "--amplitude"),
+        (["poincare", "--transient=-1"], "--transient"),
+    ] {
+        refused(&args, &[words]);
+    }
+}
