@@ -24,6 +24,7 @@
 //! | [`model`] | chain of N oscillators, Jenkins elements, self-excitation, units, linear modes, energy ledger |
 //! | [`dynamics`] | what all solvers share: states, trajectories, flows and their tangents, maps |
 //! | [`exact`] | closed-form flow in each contact state, certified events |
+//! | [`averaging`] | describing function and slow flow of the paper |
 //! | [`orbit`] | periodic orbits: shooting, Floquet multipliers, continuation, special points |
 //! | [`chaos`] | Poincare maps, amplitude diagrams, rotation numbers, 0-1 test, Lyapunov spectra |
 //! | `engine` | the rig in Rapier (feature `engine`) |
@@ -31,6 +32,8 @@
 //! | [`scene`] | scene files |
 //! | `render`, `stage`, `film` | drawing, what to draw, frame sequences and video (feature `render`) |
 //! | `report` | charts (feature `cli`) |
+//! | `paper` | the figures and the table of the paper (feature `cli`) |
+//! | `conformance` | how wrong the engine is (feature `cli`) |
 //! | [`store`] | atomic files, output directories, tables |
 //! | `cli` | the command line (feature `cli`) |
 //!
@@ -39,10 +42,13 @@
 #![forbid(unsafe_code)]
 #![warn(missing_debug_implementations)]
 
+pub mod averaging;
 pub mod chaos;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod compare;
+#[cfg(feature = "cli")]
+pub mod conformance;
 pub mod dynamics;
 #[cfg(feature = "engine")]
 pub mod engine;
@@ -51,6 +57,8 @@ pub mod exact;
 pub mod film;
 pub mod model;
 pub mod orbit;
+#[cfg(feature = "cli")]
+pub mod paper;
 #[cfg(feature = "render")]
 pub mod render;
 #[cfg(feature = "cli")]

@@ -5,12 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Module and the modules of this crate it may import.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED: [(&str, &[&str]); 17] = [
     ("render", &[]),
     ("store", &[]),
     ("model", &[]),
     ("dynamics", &["model"]),
     ("exact", &["model", "dynamics"]),
+    ("averaging", &["model", "dynamics"]),
     ("engine", &["model", "dynamics"]),
     ("orbit", &["model", "dynamics"]),
     ("chaos", &["model", "dynamics"]),
@@ -19,11 +20,30 @@ const ALLOWED: [(&str, &[&str]); 14] = [
     ("stage", &["scene", "model", "dynamics", "render"]),
     ("film", &["render", "store"]),
     ("report", &["store"]),
+    ("conformance", &["chaos", "compare", "dynamics", "engine", "exact", "model", "orbit", "report", "scene", "store"]),
+    (
+        "paper",
+        &["averaging", "chaos", "compare", "dynamics", "engine", "exact", "model", "orbit", "report", "scene", "store"],
+    ),
     (
         "cli",
         &[
-            "chaos", "compare", "dynamics", "engine", "exact", "film", "model", "orbit", "render", "report", "scene",
-            "stage", "store",
+            "averaging",
+            "chaos",
+            "compare",
+            "conformance",
+            "dynamics",
+            "engine",
+            "exact",
+            "film",
+            "model",
+            "orbit",
+            "paper",
+            "render",
+            "report",
+            "scene",
+            "stage",
+            "store",
         ],
     ),
 ];

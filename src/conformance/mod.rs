@@ -1,0 +1,1 @@
+//! What the physics engine gets wrong, measured against references that share no code with it.
