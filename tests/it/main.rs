@@ -17,6 +17,7 @@ mod convergence;
 mod demonstration;
 mod derivatives;
 mod diagram;
+mod doubling;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
