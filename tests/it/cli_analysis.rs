@@ -84,3 +84,22 @@ fn the_diagram_of_the_engine_is_that_of_its_own_settings() {
     assert_eq!(outcomes(&defaults), ["torus", "torus"]);
     refused(&["diagram", "--dt=0.01"], &["--with rapier"]);
 }
+
+#[test]
+fn poincare_tells_how_the_torus_turns_and_whether_it_is_one() {
+    let slow = |xi1, transient, t_end| {
+        document(&["poincare", "--section=slow", "--xi1", xi1, "--transient", transient, "--t-end", t_end, "--json"])
+    };
+    // A torus just born turns by the argument of the cycle's half-period multiplier; as it grows, the two part.
+    let young = slow("-0.036", "60000", "100000");
+    let multiplier = document(&["orbit", "--xi1=-0.036", "--json"])["half_period_multipliers"][0].clone();
+    let angle = multiplier[1].as_f64().unwrap().atan2(multiplier[0].as_f64().unwrap()).abs();
+    let turned = young["rotation"]["rotation_number"].as_f64().unwrap();
+    assert!((turned - angle).abs() < 0.02 * angle, "{turned} {angle}");
+    assert!(young["zero_one"].as_f64().unwrap() < 0.2, "{}", young["zero_one"]);
+    let chaos = slow("-0.155", "5000", "25000");
+    assert!(chaos["zero_one"].as_f64().unwrap() > 0.8, "{}", chaos["zero_one"]);
+    // On the limit cycle nothing winds, and there is no slow section to test.
+    let cycle = document(&["poincare", "--xi1=-0.02", "--t-end=20000", "--transient=19000", "--json"]);
+    assert!(cycle["zero_one"].is_null());
+}
