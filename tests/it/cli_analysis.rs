@@ -91,12 +91,14 @@ fn poincare_tells_how_the_torus_turns_and_whether_it_is_one() {
         document(&["poincare", "--section=slow", "--xi1", xi1, "--transient", transient, "--t-end", t_end, "--json"])
     };
     // A torus just born turns by the argument of the cycle's half-period multiplier; as it grows, the two part.
-    let young = slow("-0.036", "60000", "100000");
+    let young = slow("-0.036", "60000", "80000");
     let multiplier = document(&["orbit", "--xi1=-0.036", "--json"])["half_period_multipliers"][0].clone();
     let angle = multiplier[1].as_f64().unwrap().atan2(multiplier[0].as_f64().unwrap()).abs();
     let turned = young["rotation"]["rotation_number"].as_f64().unwrap();
     assert!((turned - angle).abs() < 0.02 * angle, "{turned} {angle}");
-    assert!(young["zero_one"].as_f64().unwrap() < 0.2, "{}", young["zero_one"]);
+    // The 0-1 test wants a settled motion, which takes too long next to the Hopf point: further on it does not.
+    let torus = slow("-0.045", "30000", "60000");
+    assert!(torus["zero_one"].as_f64().unwrap() < 0.2, "{}", torus["zero_one"]);
     let chaos = slow("-0.155", "5000", "25000");
     assert!(chaos["zero_one"].as_f64().unwrap() > 0.8, "{}", chaos["zero_one"]);
     // On the limit cycle nothing winds, and there is no slow section to test.
