@@ -1,1 +1,30 @@
 //! Complexification-averaging: describing function and slow flow, equations (4)-(16) of the paper.
+//!
+//! The fast oscillation `x_j ~ a_j cos(phi + theta_j)`, `phi' = w`, is averaged out; what remains is the slow change of amplitudes and
+//! phases. Assumed: one harmonic carries the motion, amplitudes and phases change little within a cycle, and the frequency is
+//! that of the limit cycle with the same averaged mechanical energy.
+//!
+//! | file | equations |
+//! |---|---|
+//! | `describing` | (13)-(14) |
+//! | `limit_cycles` | fixed points of (10)-(12) with free frequency |
+//! | `energy`, `energy_frequency`, `pchip` | (15)-(16) |
+//! | `slow_flow` | (10)-(12) |
+//! | `fixed_points` | stability, secondary Hopf points, fold |
+
+mod describing;
+mod energy;
+mod energy_frequency;
+mod error;
+mod fixed_points;
+mod limit_cycles;
+mod pchip;
+mod slow_flow;
+
+pub use describing::DescribingFunction;
+pub use energy::EnergyDefinition;
+pub use energy_frequency::{CONVERGED_NODES, EnergyFrequency, LARGEST_ENERGY, NodeSpacing, Nodes};
+pub use error::AveragingError;
+pub use fixed_points::{SlowFixedPoint, SlowFold, SlowHopf, fixed_point, folds, hopf_points};
+pub use limit_cycles::SlowLimitCycle;
+pub use slow_flow::{SlowFlow, SlowRate};

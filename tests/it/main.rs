@@ -1,6 +1,7 @@
 //! Integration tests: one binary, a file per concern.
 
 mod asymmetric;
+mod averaging;
 #[cfg(feature = "render")]
 mod back_ends;
 mod branches;
