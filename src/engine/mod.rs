@@ -28,6 +28,7 @@ mod geometry;
 mod hash;
 mod info;
 mod instant;
+pub mod mechanism;
 mod plant;
 mod prescribed;
 mod recorder;
