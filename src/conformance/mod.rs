@@ -9,6 +9,7 @@ mod configuration;
 mod error;
 mod experiment;
 mod fit;
+pub mod hopf;
 mod ladder;
 mod modal_rows;
 mod registry;

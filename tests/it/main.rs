@@ -21,6 +21,8 @@ mod demonstration;
 mod derivatives;
 mod diagram;
 mod doubling;
+#[cfg(feature = "cli")]
+mod engine_map;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
