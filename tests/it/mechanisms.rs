@@ -47,3 +47,77 @@ fn probe() {
         }
     }
 }
+
+#[test]
+#[ignore]
+fn probe_friction() {
+    use stickslip::conformance::native_friction::*;
+    use stickslip::engine::mechanism::*;
+    let makings = {
+        let mut all = vec![
+            Making::new(FrictionMechanism::Hook, 0.01, ElementSpring::Hook),
+            Making::new(FrictionMechanism::SaturatingMotor, 0.01, ElementSpring::Hook),
+        ];
+        for mechanism in [
+            FrictionMechanism::LimitedMotor,
+            FrictionMechanism::JointFriction,
+            FrictionMechanism::CoulombContact,
+            FrictionMechanism::SimplifiedContact,
+        ] {
+            for spring in [ElementSpring::Hook, ElementSpring::SpringJoint] {
+                for mass in [0.01, 0.001] {
+                    all.push(Making::new(mechanism, mass, spring));
+                }
+            }
+        }
+        all
+    };
+    for making in makings {
+        for (step, substeps) in [(1.0 / 60.0, 1), (1.0 / 60.0, 4), (1.0 / 240.0, 1), (1.0 / 240.0, 4), (1.0 / 960.0, 1)]
+        {
+            let joints =
+                if making.mechanism == FrictionMechanism::JointFriction { Joints::Multibody } else { Joints::Impulse };
+            let settings = EngineSettings {
+                step,
+                substeps,
+                joints,
+                precision: Precision::Double,
+                ..EngineSettings::rapier_defaults()
+            };
+            println!(
+                "== {} ms={} spring {} {} 1/{:.0} n={}",
+                making.mechanism.words(),
+                making.slider_mass,
+                making.spring.words(),
+                joints.word(),
+                1.0 / step,
+                substeps
+            );
+            match hysteresis(making, settings) {
+                Ok(h) => println!(
+                    "   area {:.4} slip {:.4?} max {:.4} start {:.4?} stop {:.4?}",
+                    h.loop_area, h.slip_force, h.largest_force, h.slip_start_delay, h.slip_stop_delay
+                ),
+                Err(e) => println!("   {e}"),
+            }
+            match hold(making, settings) {
+                Ok(h) => println!("   hold settled {:.3e} creep {:.3e}", h.settled, h.creep_rate),
+                Err(e) => println!("   {e}"),
+            }
+            match stick(making, settings) {
+                Ok(o) => {
+                    println!("   stick xi {:+.3e} w/w0-1 {:+.3e}", o.damping, o.angular_frequency / 2f64.sqrt() - 1.0)
+                }
+                Err(e) => println!("   {e}"),
+            }
+            match ride(making, settings) {
+                Ok(o) => println!("   ride xi {:+.3e} w-1 {:+.3e}", o.damping, o.angular_frequency - 1.0),
+                Err(e) => println!("   {e}"),
+            }
+            match decay(making, settings) {
+                Ok(o) => println!("   decay {:.5} exact {:.5}", o[0], o[1]),
+                Err(e) => println!("   {e}"),
+            }
+        }
+    }
+}

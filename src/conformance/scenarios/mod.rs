@@ -1,0 +1,5 @@
+//! The scenarios, one file each.
+
+mod linear_oscillator;
+
+pub use linear_oscillator::LinearOscillator;
