@@ -37,6 +37,8 @@ mod hysteresis;
 mod independent;
 mod layering;
 mod lyapunov;
+#[cfg(feature = "cli")]
+mod mechanisms;
 #[cfg(feature = "engine")]
 mod numerical_damping;
 mod orbits;
