@@ -4,7 +4,7 @@
 
 use super::check::Check;
 use super::error::PaperError;
-use super::exact::{branch, diagram, fold, secondary_hopf};
+use super::exact::{branch, diagram, fold, secondary_hopf, values};
 use super::item::{Case, Findings, Origin, PaperItem, numbers, with_words};
 use crate::chaos::{DiagramRow, MotionClass, divergence_edge};
 use crate::orbit::Branch;
@@ -34,7 +34,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let branch = branch(case.parameters, AMPLITUDE)?;
     let fold = fold(&branch).ok_or_else(|| PaperError::missing("fold of the limit cycle", case.parameters))?;
     let end = 1.02 * fold.parameters.xi1;
-    let rows = diagram(case, end / 400.0, end, case.choose(401, 41))?;
+    let rows = diagram(case, case.parameters, &values(end / 400.0, end, case.choose(401, 41)))?;
     let hopf = secondary_hopf(&branch);
     let mut findings = Findings::default();
     findings.checks.push(case.nominal_only(Check::near(
@@ -71,18 +71,38 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
 
 fn figure(branch: &Branch, rows: &[DiagramRow], end: f64) -> Figure {
     let mut panel =
-        Panel::new("damping of the in-phase mode ξ₁", "amplitude a₁").x_range(end, -0.04 * end).y_range(0.0, AMPLITUDE);
+        Panel::new("damping of the in-phase mode ξ₁", "amplitude a₁").x_range(end, -0.08 * end).y_range(0.0, AMPLITUDE);
     if let Some(edge) = divergence_edge(rows) {
-        panel = panel.with(Mark::BandX {
-            label: "diverges".into(),
-            from: None,
-            to: Some(edge.first_diverged),
-            tint: Tint::LightGrey,
-        });
+        panel = panel.with(diverging(edge.first_diverged));
     }
     panel = steady_series(rows).into_iter().fold(panel, Panel::series);
     panel = branch_series(branch).into_iter().fold(panel, Panel::series);
-    Figure::single(panel.text((0.0, 0.2), "A", Side::Centre))
+    let rest = vec![(0.0, 0.0), (-0.08 * end, 0.0)];
+    panel = panel.series(Series::new("at rest, stable for ξ₁ > 0", rest, Style::Line, Tint::Purple));
+    // Letters stand beside computed points: the middle of each range of the steady motion, and the fold.
+    let upper = |class| {
+        let of: Vec<_> = rows.iter().filter(|row| row.outcome == class).collect();
+        of.get(of.len() / 2).and_then(|row| Some((row.value, row.a1_max?)))
+    };
+    let letters = [
+        ("A", Some((-0.04 * end, 0.0))),
+        ("B", upper(MotionClass::LimitCycle)),
+        ("C", upper(MotionClass::Torus)),
+        ("C", upper(MotionClass::Chaos)),
+    ];
+    for (letter, at) in letters {
+        panel = at.into_iter().fold(panel, |panel, at| panel.text(at, letter, Side::Above));
+    }
+    if let Some(fold) = fold(branch) {
+        let at = (fold.parameters.xi1, fold.orbit.amplitude());
+        panel = panel.series(Series::new("fold", vec![at], Style::Markers, Tint::Orange)).text(at, "D", Side::Right);
+    }
+    Figure::single(panel)
+}
+
+/// Values of xi1 at which motions beside the limit cycle diverge.
+pub(super) fn diverging(from: f64) -> Mark {
+    Mark::BandX { label: "diverges".to_owned(), from: None, to: Some(from), tint: Tint::LightGrey }
 }
 
 /// Stable and unstable parts; each goes on to the first point of the next, so that the line has no gap.

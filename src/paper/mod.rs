@@ -6,14 +6,24 @@
 //! Expectations come from the paper, from theory or from computations outside this project, never from the code that is checked.
 //! Those bound to the nominal parameters do not apply to others ([`Case::nominal_only`]).
 
+mod basin;
 mod check;
 mod differences;
+mod doubling;
 mod error;
 mod exact;
 mod fig1;
+mod fig10;
+mod fig2;
+mod fig5;
+mod fig6;
+mod fig9;
 mod index;
 mod item;
+mod lyapunov;
+mod rotation;
 mod run;
+mod schematic;
 
 pub use check::{Check, Value};
 pub use error::PaperError;
@@ -22,7 +32,18 @@ pub use item::{Case, Effort, Findings, Number, Origin, PaperItem, numbers, with_
 pub use run::{ItemResult, News, run, stored};
 
 /// All items in the order of the page.
-pub const ITEMS: &[PaperItem] = &[fig1::ITEM];
+pub const ITEMS: &[PaperItem] = &[
+    fig1::ITEM,
+    fig2::ITEM,
+    fig5::ITEM,
+    fig6::ITEM,
+    fig9::ITEM,
+    fig10::ITEM,
+    lyapunov::ITEM,
+    rotation::ITEM,
+    doubling::ITEM,
+    basin::ITEM,
+];
 
 /// The items with the given names in the order of the page; all for none.
 ///
