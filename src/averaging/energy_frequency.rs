@@ -1,12 +1,15 @@
 //! Frequency over averaged mechanical energy along the branch of limit cycles, equations (15)-(16) and Fig. 4 of the paper.
 //!
-//! Nodes lie on the branch from a1 = 1 up to an energy, [`LARGEST_ENERGY`] unless another is asked for; between them w(E) is interpolated
-//! by PCHIP. Below the energy of a1 = 1 nothing slips and w = 1; above the last node w is not known.
+//! The branch is followed from a1 = 1, where slip begins at energy E0, up to [`LARGEST_ENERGY`]. In `s = sqrt(E - E0)` the frequency is a
+//! smooth function; [`Interpolation::Converged`] interpolates it there to rounding. The paper interpolates w(E) between some 400 nodes by
+//! PCHIP, whose error moves the period doublings: [`Interpolation::Pchip`] does that, with as many nodes as asked for, and tends
+//! to the converged relation as their number grows. Below E0 nothing slips and w = 1; above the last energy w is not known.
 
 use super::describing::DescribingFunction;
 use super::energy::{EnergyDefinition, MechanicalEnergy};
 use super::error::AveragingError;
 use super::limit_cycles::{LimitCycleCurve, SlowLimitCycle};
+use super::panels::Panels;
 use super::pchip::Pchip;
 use crate::model::RigParameters;
 use nalgebra::Vector3;
@@ -14,19 +17,19 @@ use serde::{Deserialize, Serialize};
 
 /// Energy up to which the branch is followed, as in the paper.
 pub const LARGEST_ENERGY: f64 = 500.0;
-/// Nodes of the converged relation: the fifth period doubling moves by less than 1e-7 when their number is doubled.
-pub const CONVERGED_NODES: usize = 25_000;
-/// Steps along the branch, of which nodes are a selection: arclength in `(tau, w, xi1)`.
-const STEP: f64 = 1.5e-5;
-/// The branch has length 3 for the nominal set.
-const MOST_STEPS: usize = 4_000_000;
+/// Steps along the branch (arclength in `(tau, w, xi1)`, which has length 3 for the nominal set): coarse ones between which points are
+/// solved for, fine ones of which nodes are a selection.
+const COARSE_STEP: f64 = 5e-4;
+const FINE_STEP: f64 = 1.5e-5;
+const LONGEST_BRANCH: f64 = 60.0;
+/// Panels of the converged relation: twice as many change w by rounding.
+const PANELS: usize = 300;
 
-/// How nodes are spread along the branch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+/// How the nodes of a PCHIP are spread along the branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NodeSpacing {
     /// Uniform in the arclength in `(tau, w, xi1)`: dense near a1 = 1, where w(E) bends most.
-    #[default]
     Arclength,
     /// Uniform in the amplitude a1.
     Amplitude,
@@ -34,46 +37,66 @@ pub enum NodeSpacing {
     RootEnergy,
 }
 
-/// Number of nodes and where they lie.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Nodes {
-    pub count: usize,
-    pub spacing: NodeSpacing,
-}
-
-impl Default for Nodes {
-    fn default() -> Self {
-        Self { count: CONVERGED_NODES, spacing: NodeSpacing::Arclength }
-    }
+/// How w(E) is interpolated between limit cycles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// To rounding.
+    #[default]
+    Converged,
+    /// Monotone piecewise cubic through a number of nodes, 4 to 200000.
+    Pchip { nodes: usize, spacing: NodeSpacing },
 }
 
 /// `w(E)` for given xi2, kappa, gamma; it does not depend on xi1, which varies along the branch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnergyFrequency {
     definition: EnergyDefinition,
-    interpolation: Pchip,
+    relation: Relation,
+    energies: Vec<f64>,
     cycles: Vec<SlowLimitCycle>,
     range: (f64, f64),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Relation {
+    Smooth(Panels),
+    Pchip(Pchip),
 }
 
 impl EnergyFrequency {
     /// Follows the branch up to [`LARGEST_ENERGY`].
     ///
     /// # Errors
-    /// [`AveragingError::Parameter`], [`AveragingError::NoCoupling`], [`AveragingError::OutOfRange`] for fewer than 4 nodes,
-    /// [`AveragingError::BranchLost`], and [`AveragingError::EnergyNotMonotone`] where w is no function of the energy.
-    pub fn new(parameters: RigParameters, definition: EnergyDefinition, nodes: Nodes) -> Result<Self, AveragingError> {
-        if !(4..=200_000).contains(&nodes.count) {
-            let found = nodes.count as f64;
-            return Err(AveragingError::OutOfRange { field: "nodes", found, allowed: "from 4 to 200000" });
-        }
-        let points = followed(parameters, definition)?;
-        let chosen = selected(&points, nodes);
-        let cycles: Vec<SlowLimitCycle> = chosen.iter().map(|index| points[*index].cycle).collect();
-        let energies = chosen.iter().map(|index| points[*index].energy).collect();
-        let frequencies: Vec<f64> = cycles.iter().map(|cycle| cycle.angular_frequency).collect();
-        let range = frequencies.iter().fold((1.0_f64, 1.0_f64), |(low, high), w| (low.min(*w), high.max(*w)));
-        Ok(Self { definition, interpolation: Pchip::through(energies, frequencies), cycles, range })
+    /// [`AveragingError::Parameter`], [`AveragingError::NoCoupling`], [`AveragingError::OutOfRange`] for a number of nodes that is not
+    /// allowed, [`AveragingError::BranchLost`], and [`AveragingError::EnergyNotMonotone`] where w is no function of the energy.
+    pub fn new(
+        parameters: RigParameters,
+        definition: EnergyDefinition,
+        interpolation: Interpolation,
+    ) -> Result<Self, AveragingError> {
+        let (points, relation) = match interpolation {
+            Interpolation::Converged => {
+                let branch = Followed::new(parameters, definition, COARSE_STEP)?;
+                let relation = Relation::Smooth(branch.panels()?);
+                (branch.points, relation)
+            }
+            Interpolation::Pchip { nodes, spacing } => {
+                if !(4..=200_000).contains(&nodes) {
+                    let found = nodes as f64;
+                    return Err(AveragingError::OutOfRange { field: "nodes", found, allowed: "from 4 to 200000" });
+                }
+                let points = Followed::new(parameters, definition, FINE_STEP)?.selected(nodes, spacing);
+                let energies = points.iter().map(|point| point.energy).collect();
+                let frequencies = points.iter().map(|point| point.cycle.angular_frequency).collect();
+                (points, Relation::Pchip(Pchip::through(energies, frequencies)))
+            }
+        };
+        let frequencies = points.iter().map(|point| point.cycle.angular_frequency);
+        let range = frequencies.fold((1.0_f64, 1.0_f64), |(low, high), w| (low.min(w), high.max(w)));
+        let energies = points.iter().map(|point| point.energy).collect();
+        let cycles = points.iter().map(|point| point.cycle).collect();
+        Ok(Self { definition, relation, energies, cycles, range })
     }
 
     #[must_use]
@@ -84,12 +107,12 @@ impl EnergyFrequency {
     /// Energy at which slip begins, below which w = 1.
     #[must_use]
     pub fn sticking_energy(&self) -> f64 {
-        self.interpolation.first()
+        self.energies[0]
     }
 
     #[must_use]
     pub fn largest_energy(&self) -> f64 {
-        self.interpolation.last()
+        self.energies[self.energies.len() - 1]
     }
 
     /// Smallest and largest frequency on the branch.
@@ -98,9 +121,9 @@ impl EnergyFrequency {
         self.range
     }
 
-    /// The limit cycles at the nodes with their energies.
+    /// The limit cycles along the branch with their energies: the nodes of a PCHIP, or some thousands.
     pub fn branch(&self) -> impl Iterator<Item = (f64, &SlowLimitCycle)> {
-        self.interpolation.nodes().iter().copied().zip(&self.cycles)
+        self.energies.iter().copied().zip(&self.cycles)
     }
 
     /// `w` and `dw/dE`.
@@ -116,12 +139,21 @@ impl EnergyFrequency {
 
     /// As [`Self::at`], the last value held beyond the last node: for stages of an integration step that is then refused.
     pub(super) fn held(&self, energy: f64) -> (f64, f64) {
-        if energy <= self.interpolation.first() {
-            (1.0, 0.0)
-        } else if energy >= self.interpolation.last() {
-            (self.interpolation.values()[self.interpolation.values().len() - 1], 0.0)
-        } else {
-            self.interpolation.evaluate(energy)
+        let start = self.sticking_energy();
+        if energy <= start {
+            return (1.0, 0.0);
+        }
+        let last = self.cycles.len() - 1;
+        if energy >= self.energies[last] {
+            return (self.cycles[last].angular_frequency, 0.0);
+        }
+        match &self.relation {
+            Relation::Pchip(pchip) => pchip.evaluate(energy),
+            Relation::Smooth(panels) => {
+                let root = (energy - start).sqrt();
+                let (w, slope) = panels.evaluate(root);
+                (w, 0.5 * slope / root)
+            }
         }
     }
 
@@ -129,7 +161,7 @@ impl EnergyFrequency {
     ///
     /// Newton's method inside a bracket: `w - w(E)` changes its sign between the smallest and the largest frequency.
     pub(super) fn implicit(&self, energy: &MechanicalEnergy) -> (f64, f64) {
-        if energy.at_frequency(1.0) <= self.interpolation.first() {
+        if energy.at_frequency(1.0) <= self.sticking_energy() {
             return (1.0, 0.0);
         }
         self.solve(|w| (energy.at_frequency(w), 2.0 * w * energy.inertia))
@@ -164,66 +196,118 @@ impl EnergyFrequency {
     }
 }
 
+#[derive(Debug, Clone, Copy)]
 struct Point {
+    u: Vector3<f64>,
     cycle: SlowLimitCycle,
     energy: f64,
-    arclength: f64,
 }
 
-fn energy_of(p: &RigParameters, definition: EnergyDefinition, cycle: &SlowLimitCycle) -> f64 {
-    let [a, re, im] = cycle.slow_state().into();
-    MechanicalEnergy::of(definition, p, &DescribingFunction::at(a), [re, im]).at_frequency(cycle.angular_frequency)
+/// The branch in equal steps from a1 = 1 to the first point beyond [`LARGEST_ENERGY`].
+struct Followed {
+    curve: LimitCycleCurve,
+    parameters: RigParameters,
+    definition: EnergyDefinition,
+    points: Vec<Point>,
 }
 
-/// All points from a1 = 1 to the first beyond [`LARGEST_ENERGY`], with the energy checked to grow from one to the next.
-fn followed(parameters: RigParameters, definition: EnergyDefinition) -> Result<Vec<Point>, AveragingError> {
-    let curve = LimitCycleCurve::new(parameters)?;
-    let point = |u: &Vector3<f64>, arclength: f64| {
-        let cycle = curve.cycle(u);
-        Point { energy: energy_of(&parameters, definition, &cycle), cycle, arclength }
-    };
-    let mut points = vec![point(&LimitCycleCurve::START.into(), 0.0)];
-    for (n, next) in curve.walk(STEP).enumerate() {
-        let last = &points[points.len() - 1];
-        let lost = || AveragingError::BranchLost {
-            amplitude: last.cycle.amplitude,
-            angular_frequency: last.cycle.angular_frequency,
-            xi1: last.cycle.xi1,
-            energy: last.energy,
-            wanted: LARGEST_ENERGY,
+impl Followed {
+    /// The energy is checked to grow from one point to the next.
+    fn new(parameters: RigParameters, definition: EnergyDefinition, step: f64) -> Result<Self, AveragingError> {
+        let curve = LimitCycleCurve::new(parameters)?;
+        let mut branch = Self { curve, parameters, definition, points: Vec::new() };
+        branch.points.push(branch.point(LimitCycleCurve::START.into()));
+        let most_steps = (LONGEST_BRANCH / step) as usize;
+        for next in curve.walk(step).take(most_steps) {
+            let last = branch.points[branch.points.len() - 1];
+            let next = branch.point(next.ok_or_else(|| lost(&last))?);
+            if next.energy.is_nan() || next.energy <= last.energy {
+                let (from, to, amplitude) = (last.energy, next.energy, next.cycle.amplitude);
+                return Err(AveragingError::EnergyNotMonotone { definition, from, to, amplitude });
+            }
+            branch.points.push(next);
+            if next.energy >= LARGEST_ENERGY {
+                return Ok(branch);
+            }
+        }
+        Err(lost(&branch.points[branch.points.len() - 1]))
+    }
+
+    fn point(&self, u: Vector3<f64>) -> Point {
+        let cycle = self.curve.cycle(&u);
+        let [a, re, im] = cycle.slow_state().into();
+        let energy = MechanicalEnergy::of(self.definition, &self.parameters, &DescribingFunction::at(a), [re, im]);
+        Point { u, cycle, energy: energy.at_frequency(cycle.angular_frequency) }
+    }
+
+    /// The frequency over `sqrt(E - E0)`.
+    fn panels(&self) -> Result<Panels, AveragingError> {
+        let (start, end) = (self.points[0].energy, self.points[self.points.len() - 1].energy);
+        Panels::through((end - start).sqrt(), PANELS, |root| {
+            Ok(self.at_energy(start + root * root)?.cycle.angular_frequency)
+        })
+    }
+
+    /// The point of the branch with an energy between its ends, by the secant method along the chord of its neighbours.
+    fn at_energy(&self, energy: f64) -> Result<Point, AveragingError> {
+        let above = self.points.partition_point(|point| point.energy <= energy).clamp(1, self.points.len() - 1);
+        let (low, high) = (self.points[above - 1], self.points[above]);
+        let chord = high.u - low.u;
+        let normal = chord.normalize();
+        let at = |part: f64| {
+            let u = self.curve.corrected(low.u + chord * part, &normal).ok_or_else(|| lost(&low))?;
+            Ok::<_, AveragingError>(self.point(u))
         };
-        let next = point(&next.filter(|_| n < MOST_STEPS).ok_or_else(lost)?, (n + 1) as f64 * STEP);
-        if next.energy.is_nan() || next.energy <= last.energy {
-            let (from, to, amplitude) = (last.energy, next.energy, next.cycle.amplitude);
-            return Err(AveragingError::EnergyNotMonotone { definition, from, to, amplitude });
+        let mut ends = [(0.0, low.energy - energy), (1.0, high.energy - energy)];
+        let mut found = low;
+        // Five or six steps; the energy is a smooth function along the chord.
+        for _ in 0..50 {
+            let part = ends[0].0 + (ends[1].0 - ends[0].0) * ends[0].1 / (ends[0].1 - ends[1].1);
+            found = at(part)?;
+            let residual = found.energy - energy;
+            // Rounding of the energy.
+            if residual.abs() <= 4e-16 * energy {
+                break;
+            }
+            let side = usize::from((residual < 0.0) != (ends[0].1 < 0.0));
+            if (part - ends[side].0).abs() <= 1e-15 {
+                break;
+            }
+            ends[side] = (part, residual);
+            ends[1 - side].1 *= 0.5;
         }
-        let done = next.energy >= LARGEST_ENERGY;
-        points.push(next);
-        if done {
-            return Ok(points);
-        }
+        Ok(found)
     }
-    Ok(points)
+
+    /// Nodes spread as asked, ends included, of the points followed. Where the coordinate falls (an amplitude that turns), points are passed
+    /// over.
+    fn selected(&self, nodes: usize, spacing: NodeSpacing) -> Vec<Point> {
+        let points = &self.points;
+        let coordinate = |index: usize| match spacing {
+            NodeSpacing::Arclength => index as f64,
+            NodeSpacing::Amplitude => points[index].cycle.amplitude,
+            NodeSpacing::RootEnergy => (points[index].energy - points[0].energy).max(0.0).sqrt(),
+        };
+        let last = points.len() - 1;
+        let (from, to) = (coordinate(0), coordinate(last));
+        let mut chosen = vec![0];
+        for n in 1..nodes - 1 {
+            let wanted = from + (to - from) * (n as f64 / (nodes - 1) as f64);
+            let start = chosen[chosen.len() - 1] + 1;
+            let Some(index) = (start..last).find(|index| coordinate(*index) >= wanted) else { break };
+            chosen.push(index);
+        }
+        chosen.push(last);
+        chosen.into_iter().map(|index| points[index]).collect()
+    }
 }
 
-/// Indices of `nodes` points spread as asked, ends included. The coordinate must not fall; where it does (an amplitude that turns), points
-/// there are passed over.
-fn selected(points: &[Point], nodes: Nodes) -> Vec<usize> {
-    let first_energy = points[0].energy;
-    let coordinate = |point: &Point| match nodes.spacing {
-        NodeSpacing::Arclength => point.arclength,
-        NodeSpacing::Amplitude => point.cycle.amplitude,
-        NodeSpacing::RootEnergy => (point.energy - first_energy).max(0.0).sqrt(),
-    };
-    let last = points.len() - 1;
-    let (from, to) = (coordinate(&points[0]), coordinate(&points[last]));
-    let mut chosen = vec![0];
-    for n in 1..nodes.count - 1 {
-        let wanted = from + (to - from) * (n as f64 / (nodes.count - 1) as f64);
-        let start = chosen[chosen.len() - 1] + 1;
-        let Some(offset) = points[start..last].iter().position(|point| coordinate(point) >= wanted) else { break };
-        chosen.push(start + offset);
+fn lost(last: &Point) -> AveragingError {
+    AveragingError::BranchLost {
+        amplitude: last.cycle.amplitude,
+        angular_frequency: last.cycle.angular_frequency,
+        xi1: last.cycle.xi1,
+        energy: last.energy,
+        wanted: LARGEST_ENERGY,
     }
-    chosen.push(last);
-    chosen
 }

@@ -8,23 +8,32 @@
 //! |---|---|
 //! | `describing` | (13)-(14) |
 //! | `limit_cycles` | fixed points of (10)-(12) with free frequency |
-//! | `energy`, `energy_frequency`, `pchip` | (15)-(16) |
+//! | `energy`, `energy_frequency`, `panels`, `pchip` | (15)-(16) |
 //! | `slow_flow` | (10)-(12) |
 //! | `fixed_points` | stability, secondary Hopf points, fold |
+//! | `integration` | the slow flow in time |
+//! | `torus`, `torus_branch`, `doublings` | its limit cycles and their period doublings (Table 1) |
 
 mod describing;
+mod doublings;
 mod energy;
 mod energy_frequency;
 mod error;
 mod fixed_points;
+mod integration;
 mod limit_cycles;
+mod panels;
 mod pchip;
 mod slow_flow;
+mod torus;
+mod torus_branch;
 
 pub use describing::DescribingFunction;
+pub use doublings::{PeriodDoubling, period_doublings};
 pub use energy::EnergyDefinition;
-pub use energy_frequency::{CONVERGED_NODES, EnergyFrequency, LARGEST_ENERGY, NodeSpacing, Nodes};
+pub use energy_frequency::{EnergyFrequency, Interpolation, LARGEST_ENERGY, NodeSpacing};
 pub use error::AveragingError;
 pub use fixed_points::{SlowFixedPoint, SlowFold, SlowHopf, fixed_point, folds, hopf_points};
 pub use limit_cycles::SlowLimitCycle;
 pub use slow_flow::{SlowFlow, SlowRate};
+pub use torus::SlowTorus;

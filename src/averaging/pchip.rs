@@ -28,22 +28,6 @@ impl Pchip {
         Self { nodes, values, slopes }
     }
 
-    pub(super) fn first(&self) -> f64 {
-        self.nodes[0]
-    }
-
-    pub(super) fn last(&self) -> f64 {
-        self.nodes[self.nodes.len() - 1]
-    }
-
-    pub(super) fn values(&self) -> &[f64] {
-        &self.values
-    }
-
-    pub(super) fn nodes(&self) -> &[f64] {
-        &self.nodes
-    }
-
     /// Value and slope; `x` lies between the first and the last node.
     pub(super) fn evaluate(&self, x: f64) -> (f64, f64) {
         let i = self.nodes.partition_point(|node| *node <= x).clamp(1, self.nodes.len() - 1) - 1;

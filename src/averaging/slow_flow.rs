@@ -87,6 +87,12 @@ impl SlowFlow {
         (energy.at_frequency(w), w)
     }
 
+    /// Distances from the kinks of the field: of the amplitude from 1, and of the energy from the sticking limit.
+    pub(super) fn kinks(&self, slow: &Vector3<f64>) -> [f64; 2] {
+        let energy = self.energy(&DescribingFunction::at(slow[0]), [slow[1], slow[2]]);
+        [slow[0] - 1.0, energy.at_frequency(1.0) - self.frequency.sticking_energy()]
+    }
+
     /// The field and its derivatives at a slow state with `a1 > 0`. Beyond the energies of w(E) the last frequency is held.
     #[must_use]
     pub fn slow_rate(&self, slow: &Vector3<f64>) -> SlowRate {

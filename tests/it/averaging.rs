@@ -2,11 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
-use stickslip::averaging::{EnergyDefinition, EnergyFrequency, Nodes, SlowFlow, fixed_point, folds, hopf_points};
+use stickslip::averaging::{
+    EnergyDefinition, EnergyFrequency, Interpolation, SlowFlow, fixed_point, folds, hopf_points,
+};
 use stickslip::model::RigParameters;
 
 pub fn slow_flow(parameters: RigParameters, definition: EnergyDefinition) -> SlowFlow {
-    let frequency = EnergyFrequency::new(parameters, definition, Nodes::default()).unwrap();
+    let frequency = EnergyFrequency::new(parameters, definition, Interpolation::Converged).unwrap();
     SlowFlow::new(parameters, Arc::new(frequency)).unwrap()
 }
 
