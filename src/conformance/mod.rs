@@ -23,10 +23,11 @@ pub use configuration::{Configuration, Mechanism};
 pub use error::ConformanceError;
 pub use exchange::{Score, ScoreCheck, Setup};
 pub use experiment::{
-    Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, finish_ladder, hook_cases, ladder, tally,
+    Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, bounded_row, finish_ladder, hook_cases,
+    ladder, tally,
 };
 pub use fit::fit_modes;
-pub use ladder::{Ladder, ORDER_TOLERANCE, rounding_floor};
+pub use ladder::{Ladder, ORDER_TOLERANCE, Rung, rounding_floor};
 pub use modal_rows::{FORMULA_TOLERANCE, ModeAt};
 pub use registry::registry;
 pub use row::{Basis, Judgement, Physics, Row, Subject, Verdict};
