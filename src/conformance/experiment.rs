@@ -10,8 +10,8 @@ use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
 use crate::engine::trajectory_hash;
 use crate::model::OscillatorChain;
 
-/// Samples kept per period: enough to see every extreme, few enough for long ladders.
-const SAMPLES_PER_PERIOD: u32 = 32;
+/// Samples per period where states are compared: enough to see every extreme, few enough for long ladders.
+pub const SAMPLES_PER_PERIOD: u32 = 32;
 
 /// Steps per period of the full report. 377 is the engine's default step of 1/60 for an angular frequency of 1.
 pub const FULL_LADDER: [u32; 10] = [32, 64, 128, 256, 377, 512, 1024, 2048, 4096, 8192];
@@ -33,6 +33,8 @@ pub struct Experiment {
     pub start: State,
     pub period: f64,
     pub periods: u32,
+    /// Samples per period at least, if there are as many steps.
+    pub samples: u32,
 }
 
 /// A motion at one step.
@@ -40,7 +42,7 @@ pub struct Experiment {
 pub struct Measured {
     pub trajectory: Trajectory,
     /// The difference equation at the same times.
-    pub predicted: Vec<State>,
+    pub predicted: Trajectory,
     pub hash: String,
     pub floor: f64,
     /// Largest component of the motion.
@@ -68,7 +70,7 @@ impl Experiment {
     ) -> Result<Measured, ConformanceError> {
         let step = self.period / f64::from(steps);
         // Samples fall on steps, so that nothing is interpolated.
-        let stride = (steps / SAMPLES_PER_PERIOD).max(1);
+        let stride = (steps / self.samples).max(1);
         let total = steps * self.periods / stride * stride;
         let sampling = Sampling { interval: step * f64::from(stride), t_end: step * f64::from(total) };
         let trajectory = bench.free(&self.chain, configuration, step)?.trajectory(&self.start, sampling)?;
@@ -97,9 +99,21 @@ impl Measured {
         let samples = || self.trajectory.samples.iter().map(|sample| &sample.state);
         StateError {
             found: largest(&mut samples().zip(exact).map(|(a, b)| a.max_difference(b))),
-            expected: largest(&mut self.predicted.iter().zip(exact).map(|(a, b)| a.max_difference(b))),
+            expected: largest(&mut self.predicted.samples.iter().zip(exact).map(|(a, b)| a.state.max_difference(b))),
             tolerance: ROUNDINGS * self.floor,
         }
+    }
+
+    /// Positions of an oscillator at the sample times.
+    #[must_use]
+    pub fn positions(&self, oscillator: usize) -> Vec<f64> {
+        self.trajectory.samples.iter().map(|sample| sample.state.positions[oscillator]).collect()
+    }
+
+    /// Time between samples.
+    #[must_use]
+    pub fn interval(&self) -> f64 {
+        self.trajectory.samples[1].time
     }
 
     #[must_use]

@@ -7,6 +7,7 @@
 
 mod configuration;
 mod error;
+mod exchange;
 mod experiment;
 mod fit;
 mod ladder;
@@ -18,16 +19,18 @@ mod registry;
 mod row;
 mod scenario;
 mod scenarios;
+mod switching;
 mod theory;
 
 pub use configuration::{Configuration, Mechanism};
 pub use error::ConformanceError;
+pub use exchange::{Score, ScoreCheck, Setup};
 pub use experiment::{
     Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, finish_ladder, hook_cases, ladder, tally,
 };
 pub use fit::fit_modes;
 pub use ladder::{Ladder, ORDER_TOLERANCE, rounding_floor};
-pub use modal_rows::{FORMULA_TOLERANCE, ModeAt, expected_orders};
+pub use modal_rows::{FORMULA_TOLERANCE, ModeAt};
 pub use registry::registry;
 pub use row::{Basis, Judgement, Physics, Row, Subject, Verdict};
 pub use scenario::{Bench, Case, Depth, Rapier, Scenario, subject};
