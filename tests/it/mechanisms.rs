@@ -15,7 +15,7 @@ fn probe() {
                         let settings =
                             EngineSettings { step, substeps, joints, precision, ..EngineSettings::rapier_defaults() };
                         let o = Oscillator::unit();
-                        match measure(mechanism, o, settings, 100.0) {
+                        match measure(&stickslip::conformance::Rapier, mechanism, o, settings, 100.0) {
                             Err(e) => {
                                 println!("{e}");
                             }
@@ -85,28 +85,28 @@ fn probe_friction() {
                 1.0 / step,
                 substeps
             );
-            match hysteresis(making, settings) {
+            match hysteresis(&stickslip::conformance::Rapier, making, settings) {
                 Ok(h) => println!(
                     "   area {:.4} slip {:.4?} max {:.4} start {:.4?} stop {:.4?}",
                     h.loop_area, h.slip_force, h.largest_force, h.slip_start_delay, h.slip_stop_delay
                 ),
                 Err(e) => println!("   {e}"),
             }
-            match hold(making, settings) {
+            match hold(&stickslip::conformance::Rapier, making, settings) {
                 Ok(h) => println!("   hold settled {:.3e} creep {:.3e}", h.settled, h.creep_rate),
                 Err(e) => println!("   {e}"),
             }
-            match stick(making, settings) {
+            match stick(&stickslip::conformance::Rapier, making, settings) {
                 Ok(o) => {
                     println!("   stick xi {:+.3e} w/w0-1 {:+.3e}", o.damping, o.angular_frequency / 2f64.sqrt() - 1.0)
                 }
                 Err(e) => println!("   {e}"),
             }
-            match ride(making, settings) {
+            match ride(&stickslip::conformance::Rapier, making, settings) {
                 Ok(o) => println!("   ride xi {:+.3e} w-1 {:+.3e}", o.damping, o.angular_frequency - 1.0),
                 Err(e) => println!("   {e}"),
             }
-            match decay(making, settings) {
+            match decay(&stickslip::conformance::Rapier, making, settings) {
                 Ok(o) => println!("   decay {:.5} exact {:.5}", o[0], o[1]),
                 Err(e) => println!("   {e}"),
             }
@@ -187,7 +187,14 @@ fn probe_rig() {
             let joints =
                 if mechanism == FrictionMechanism::JointFriction { Joints::Multibody } else { Joints::Impulse };
             let settings = EngineSettings { step, substeps, joints, scheme, precision: Precision::Double };
-            let m = two_mass(Making::new(mechanism, mass, spring), p, &orbit, settings, 1000.0);
+            let m = two_mass(
+                &stickslip::conformance::Rapier,
+                Making::new(mechanism, mass, spring),
+                p,
+                &orbit,
+                settings,
+                1000.0,
+            );
             match m {
                 Ok(m) => println!(
                     "{} {} {} 1/{:.0} n={}: {:.4} .. {:.4} w {:.6}",
