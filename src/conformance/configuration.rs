@@ -11,6 +11,23 @@ use std::fmt;
 pub enum Mechanism {
     /// Our own force laws, evaluated before each step, their forces held constant over it.
     Hook,
+    /// Motor of the prismatic joint, force based.
+    MotorForceBased,
+    /// Motor of the prismatic joint, acceleration based.
+    MotorAccelerationBased,
+    SpringJoint,
+    /// Spring and damping of a multibody joint.
+    MultibodySpring,
+    /// Motor of limited force as a whole Jenkins element, without a slider.
+    SaturatingMotor,
+    /// Slider body held by a motor of limited force.
+    LimitedMotor,
+    /// Slider body held by the dry friction of a multibody joint.
+    JointFriction,
+    /// Slider body pressed on a block, `FrictionModel::Coulomb`.
+    CoulombContact,
+    /// Slider body pressed on a block, `FrictionModel::Simplified`.
+    SimplifiedContact,
 }
 
 impl Mechanism {
@@ -19,6 +36,15 @@ impl Mechanism {
     pub fn word(self) -> &'static str {
         match self {
             Self::Hook => "hook",
+            Self::MotorForceBased => "motor_force_based",
+            Self::MotorAccelerationBased => "motor_acceleration_based",
+            Self::SpringJoint => "spring_joint",
+            Self::MultibodySpring => "multibody_spring",
+            Self::SaturatingMotor => "saturating_motor",
+            Self::LimitedMotor => "limited_motor",
+            Self::JointFriction => "joint_friction",
+            Self::CoulombContact => "coulomb_contact",
+            Self::SimplifiedContact => "simplified_contact",
         }
     }
 }

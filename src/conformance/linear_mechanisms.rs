@@ -20,9 +20,11 @@
 //! native     xi_num - xi = +w0^2 h/n - xi^2 h/(2 n),       w_num/w0 - 1 = -w0^2 h^2/(3 n^2)                               (xi = 0)
 //! ```
 
+use super::ConformanceError;
 use super::oscillation::Oscillation;
-use crate::engine::mechanism::{GroundSpring, LinearMechanism, MechanismFlow, MechanismRig, MechanismSample};
-use crate::engine::{EngineError, EngineSettings};
+use super::scenario::Bench;
+use crate::engine::EngineSettings;
+use crate::engine::mechanism::{GroundSpring, LinearMechanism, MechanismRig, MechanismSample};
 use crate::model::ChainBuilder;
 
 /// The oscillator.
@@ -106,13 +108,15 @@ fn weight(substeps: usize) -> f64 {
 /// Damping and frequency that the engine's motion shows over `duration`, started at 1 at rest.
 ///
 /// # Errors
-/// [`EngineError::Unavailable`] where Rapier does not have the mechanism, and whatever stops the engine.
+/// [`EngineError::Unavailable`](crate::engine::EngineError::Unavailable) where Rapier does not have the mechanism, and whatever stops the
+/// engine.
 pub fn measure(
+    bench: &dyn Bench,
     mechanism: LinearMechanism,
     oscillator: Oscillator,
     settings: EngineSettings,
     duration: f64,
-) -> Result<Option<Oscillation>, EngineError> {
+) -> Result<Option<Oscillation>, ConformanceError> {
     let chain = ChainBuilder::new(vec![oscillator.mass]).build()?;
     let Oscillator { stiffness, damping, .. } = oscillator;
     let rig = MechanismRig {
@@ -120,7 +124,7 @@ pub fn measure(
         ..MechanismRig::of(chain)
     };
     let steps = (duration / settings.step).round() as u64;
-    let motion = MechanismFlow::new(rig, settings)?.run(&MechanismSample::single(1.0, 0.0), steps, 1)?;
+    let motion = bench.native(rig, settings)?.run(&MechanismSample::single(1.0, 0.0), steps, 1)?;
     let positions: Vec<f64> = motion.samples.iter().map(|sample| sample.positions[0]).collect();
     Ok(Oscillation::of(&positions, settings.step))
 }

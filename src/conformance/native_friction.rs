@@ -13,6 +13,7 @@
 
 use super::ConformanceError;
 use super::oscillation::{Oscillation, maxima, upward_zeros};
+use super::scenario::Bench;
 use crate::dynamics::{DenseFlow, Motion, Outcome, State};
 use crate::engine::EngineSettings;
 use crate::engine::mechanism::{
@@ -27,9 +28,14 @@ use crate::orbit::PeriodicOrbit;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Amplitude of the prescribed motion.
-const AMPLITUDE: f64 = 1.5;
+pub const AMPLITUDE: f64 = 1.5;
 /// A slider slower than this part of the largest speed of the carriage has stopped.
 const STOPPED: f64 = 0.01;
+/// Force under which a slider is held, and for how long.
+pub const HELD_FORCE: f64 = 0.5;
+pub const HOLDING_TIME: f64 = 4.0;
+/// Length of a run of the two-mass rig, of which the last fifth is measured.
+pub const RIG_TIME: f64 = 1000.0;
 /// Cycles that are run, of which the last is measured.
 const CYCLES: u64 = 3;
 
@@ -61,12 +67,13 @@ impl Making {
     /// A carriage of unit mass on a unit spring.
     fn oscillator(
         self,
+        bench: &dyn Bench,
         settings: EngineSettings,
         slip_force: f64,
         drive: Drive,
     ) -> Result<MechanismFlow, ConformanceError> {
         let chain = ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0).build()?;
-        Ok(MechanismFlow::new(self.rig(chain, self.element(1.0, slip_force), drive), settings)?)
+        bench.native(self.rig(chain, self.element(1.0, slip_force), drive), settings)
     }
 }
 
@@ -90,13 +97,13 @@ pub const EXACT_LOOP_AREA: f64 = 4.0 * (AMPLITUDE - 1.0);
 
 /// # Errors
 /// Whatever stops the engine. The step is rounded to a whole number of steps per cycle.
-pub fn hysteresis(making: Making, settings: EngineSettings) -> Result<Hysteresis, ConformanceError> {
+pub fn hysteresis(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Hysteresis, ConformanceError> {
     let steps = (TAU / settings.step).round();
     let settings = EngineSettings { step: TAU / steps, ..settings };
     let steps = steps as u64;
     let drive = Drive::Prescribed(PrescribedMotion { amplitude: AMPLITUDE, angular_frequency: 1.0 });
     let start = MechanismSample::single(0.0, AMPLITUDE);
-    let motion = making.oscillator(settings, 1.0, drive)?.run(&start, CYCLES * steps, 1)?;
+    let motion = making.oscillator(bench, settings, 1.0, drive)?.run(&start, CYCLES * steps, 1)?;
     // From the lower reversal before the last cycle, where the force is -1, on.
     let first = ((CYCLES - 1) * steps - steps / 4) as usize;
     let cycle = &motion.samples[first..first + steps as usize];
@@ -146,10 +153,10 @@ pub struct Hold {
 
 /// # Errors
 /// Whatever stops the engine.
-pub fn hold(making: Making, settings: EngineSettings) -> Result<Hold, ConformanceError> {
-    let half = (2.0 / settings.step).round() as u64;
-    let flow = making.oscillator(settings, 1.0, Drive::Held)?;
-    let motion = flow.run(&MechanismSample::at(vec![0.5], vec![0.0], 0.5), 2 * half, half)?;
+pub fn hold(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Hold, ConformanceError> {
+    let half = (0.5 * HOLDING_TIME / settings.step).round() as u64;
+    let flow = making.oscillator(bench, settings, 1.0, Drive::Held)?;
+    let motion = flow.run(&MechanismSample::at(vec![HELD_FORCE], vec![0.0], HELD_FORCE), 2 * half, half)?;
     let sliders: Vec<f64> = motion.samples.iter().filter_map(|s| s.slider).map(|s| s.position).collect();
     let [start, middle, end] = sliders.as_slice() else {
         return Err(too_few("positions of the slider", sliders.len(), 3));
@@ -161,9 +168,9 @@ pub fn hold(making: Making, settings: EngineSettings) -> Result<Hold, Conformanc
 ///
 /// # Errors
 /// Whatever stops the engine, and a motion that is no oscillation.
-pub fn stick(making: Making, settings: EngineSettings) -> Result<Oscillation, ConformanceError> {
+pub fn stick(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Oscillation, ConformanceError> {
     let start = MechanismSample::at(vec![0.5], vec![0.0], 0.5);
-    let motion = run_free(making.oscillator(settings, 1.0, Drive::Free)?, &start, 40.0)?;
+    let motion = run_free(making.oscillator(bench, settings, 1.0, Drive::Free)?, &start, 40.0)?;
     of_carriage(&motion, settings.step)
 }
 
@@ -171,8 +178,8 @@ pub fn stick(making: Making, settings: EngineSettings) -> Result<Oscillation, Co
 ///
 /// # Errors
 /// Whatever stops the engine, and a motion that is no oscillation.
-pub fn ride(making: Making, settings: EngineSettings) -> Result<Oscillation, ConformanceError> {
-    let flow = making.oscillator(settings, 1e-3, Drive::Free)?;
+pub fn ride(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Oscillation, ConformanceError> {
+    let flow = making.oscillator(bench, settings, 1e-3, Drive::Free)?;
     let motion = run_free(flow, &MechanismSample::at(vec![1.0], vec![0.0], 1e-3), 40.0)?;
     of_carriage(&motion, settings.step)
 }
@@ -181,9 +188,9 @@ pub fn ride(making: Making, settings: EngineSettings) -> Result<Oscillation, Con
 ///
 /// # Errors
 /// Whatever stops the engine or the exact flow.
-pub fn decay(making: Making, settings: EngineSettings) -> Result<[f64; 2], ConformanceError> {
+pub fn decay(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<[f64; 2], ConformanceError> {
     let start = MechanismSample::at(vec![3.0], vec![0.0], 1.0);
-    let motion = run_free(making.oscillator(settings, 1.0, Drive::Free)?, &start, 20.0)?;
+    let motion = run_free(making.oscillator(bench, settings, 1.0, Drive::Free)?, &start, 20.0)?;
     let found = third_maximum(&of_positions(&motion), settings.step)?;
     let element = JenkinsElement { attachment: Attachment::Ground(0), stiffness: 1.0, slip_force: 1.0 };
     let chain = ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0).jenkins(element).build()?;
@@ -205,6 +212,7 @@ pub struct RigMotion {
 /// # Errors
 /// Whatever stops the engine, [`ConformanceError::Diverged`], and a motion that is no oscillation.
 pub fn two_mass(
+    bench: &dyn Bench,
     making: Making,
     parameters: RigParameters,
     start: &PeriodicOrbit,
@@ -221,7 +229,7 @@ pub fn two_mass(
     let element = making.element(parameters.gamma, parameters.gamma);
     let state = start.reversal();
     let start = MechanismSample::at(state.positions, state.velocities, parameters.gamma * state.slider_forces[0]);
-    let motion = run_free(MechanismFlow::new(making.rig(chain, element, Drive::Free), settings)?, &start, duration)?;
+    let motion = run_free(bench.native(making.rig(chain, element, Drive::Free), settings)?, &start, duration)?;
     let positions = of_positions(&motion);
     let last = &positions[positions.len() / 5 * 4..];
     let values: Vec<f64> = maxima(last, settings.step).into_iter().map(|maximum| maximum.1).collect();

@@ -3,7 +3,7 @@
 use super::scenario::Scenario;
 use super::scenarios::{
     Chaos, CoupledOscillators, EnergyLedger, FreeFlight, FrictionDecay, Hysteresis, JointDrift, LimitCycle,
-    LinearOscillator, NegativeDamping, Torus,
+    LinearOscillator, MechanismFriction, MechanismLinear, NegativeDamping, Torus,
 };
 
 /// All scenarios.
@@ -21,5 +21,7 @@ pub fn registry() -> Vec<Box<dyn Scenario>> {
         Box::new(Chaos),
         Box::new(EnergyLedger),
         Box::new(JointDrift),
+        Box::new(MechanismLinear),
+        Box::new(MechanismFriction),
     ]
 }

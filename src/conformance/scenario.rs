@@ -4,7 +4,8 @@ use super::ConformanceError;
 use super::configuration::{Configuration, Mechanism};
 use super::exchange::Setup;
 use super::row::{Row, Subject};
-use crate::engine::{EngineFlow, PrescribedFlow};
+use crate::engine::mechanism::{MechanismFlow, MechanismRig};
+use crate::engine::{EngineFlow, EngineSettings, PrescribedFlow};
 use crate::model::{OscillatorChain, PrescribedMotion};
 use serde::{Deserialize, Serialize};
 
@@ -56,6 +57,14 @@ pub trait Bench: Sync {
     ) -> Result<PrescribedFlow, ConformanceError> {
         Ok(PrescribedFlow::new(chain, motion, configuration.settings(step))?)
     }
+
+    /// A rig with some of its elements realised by the engine itself.
+    ///
+    /// # Errors
+    /// [`ConformanceError`] if the engine has no such mechanism.
+    fn native(&self, rig: MechanismRig, settings: EngineSettings) -> Result<MechanismFlow, ConformanceError> {
+        Ok(MechanismFlow::new(rig, settings)?)
+    }
 }
 
 /// The engine as it is.
@@ -71,6 +80,7 @@ impl Bench for Rapier {
     ) -> Result<EngineFlow, ConformanceError> {
         match configuration.mechanism {
             Mechanism::Hook => Ok(EngineFlow::new(chain, configuration.settings(step))?),
+            native => Err(ConformanceError::NoMechanism { mechanism: native.word() }),
         }
     }
 }

@@ -15,7 +15,7 @@ fn probe() {
                         let settings =
                             EngineSettings { step, substeps, joints, precision, ..EngineSettings::rapier_defaults() };
                         let o = Oscillator::unit();
-                        match measure(mechanism, o, settings, 100.0) {
+                        match measure(&stickslip::conformance::Rapier, mechanism, o, settings, 100.0) {
                             Err(e) => {
                                 println!("{e}");
                             }
@@ -54,16 +54,8 @@ fn probe_friction() {
     use stickslip::conformance::native_friction::*;
     use stickslip::engine::mechanism::*;
     let makings = {
-        let mut all = vec![
-            Making::new(FrictionMechanism::Hook, 0.01, ElementSpring::Hook),
-            Making::new(FrictionMechanism::SaturatingMotor, 0.01, ElementSpring::Hook),
-        ];
-        for mechanism in [
-            FrictionMechanism::LimitedMotor,
-            FrictionMechanism::JointFriction,
-            FrictionMechanism::CoulombContact,
-            FrictionMechanism::SimplifiedContact,
-        ] {
+        let mut all = vec![];
+        for mechanism in [FrictionMechanism::CoulombContact, FrictionMechanism::SimplifiedContact] {
             for spring in [ElementSpring::Hook, ElementSpring::SpringJoint] {
                 for mass in [0.01, 0.001] {
                     all.push(Making::new(mechanism, mass, spring));
@@ -93,30 +85,136 @@ fn probe_friction() {
                 1.0 / step,
                 substeps
             );
-            match hysteresis(making, settings) {
+            match hysteresis(&stickslip::conformance::Rapier, making, settings) {
                 Ok(h) => println!(
                     "   area {:.4} slip {:.4?} max {:.4} start {:.4?} stop {:.4?}",
                     h.loop_area, h.slip_force, h.largest_force, h.slip_start_delay, h.slip_stop_delay
                 ),
                 Err(e) => println!("   {e}"),
             }
-            match hold(making, settings) {
+            match hold(&stickslip::conformance::Rapier, making, settings) {
                 Ok(h) => println!("   hold settled {:.3e} creep {:.3e}", h.settled, h.creep_rate),
                 Err(e) => println!("   {e}"),
             }
-            match stick(making, settings) {
+            match stick(&stickslip::conformance::Rapier, making, settings) {
                 Ok(o) => {
                     println!("   stick xi {:+.3e} w/w0-1 {:+.3e}", o.damping, o.angular_frequency / 2f64.sqrt() - 1.0)
                 }
                 Err(e) => println!("   {e}"),
             }
-            match ride(making, settings) {
+            match ride(&stickslip::conformance::Rapier, making, settings) {
                 Ok(o) => println!("   ride xi {:+.3e} w-1 {:+.3e}", o.damping, o.angular_frequency - 1.0),
                 Err(e) => println!("   {e}"),
             }
-            match decay(making, settings) {
+            match decay(&stickslip::conformance::Rapier, making, settings) {
                 Ok(o) => println!("   decay {:.5} exact {:.5}", o[0], o[1]),
                 Err(e) => println!("   {e}"),
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore]
+fn probe_pad() {
+    use rapier3d_f64::prelude::*;
+    for model in [FrictionModel::Simplified, FrictionModel::Coulomb] {
+        let mut w = PhysicsWorld::default();
+        w.gravity = Vector::new(0.0, 0.0, 0.0);
+        w.integration_parameters.friction_model = model;
+        w.integration_parameters.num_solver_iterations = 1;
+        w.integration_parameters.max_ccd_substeps = 0;
+        let (block, bc) = w.insert(
+            RigidBodyBuilder::fixed().translation(Vector::new(0.0, -0.4, 0.0)),
+            ColliderBuilder::cuboid(16.0, 0.2, 0.2).friction(0.5),
+        );
+        let (pad, pc) = w.insert(
+            RigidBodyBuilder::dynamic().can_sleep(false).locked_axes(LockedAxes::ROTATION_LOCKED),
+            ColliderBuilder::cuboid(0.2, 0.2, 0.2).mass(0.01).friction(0.5),
+        );
+        for n in 0..200 {
+            let b = &mut w.bodies[pad];
+            b.reset_forces(false);
+            b.add_force(Vector::new(0.5, -2.0, 0.0), true);
+            w.step();
+            if n % 20 == 0 {
+                let c = w.contact_pair(pc, bc).map(|p| {
+                    p.manifolds()
+                        .iter()
+                        .map(|m| {
+                            m.points
+                                .iter()
+                                .map(|p| (p.data.impulse, p.data.tangent_impulse.x, p.data.tangent_impulse.y))
+                                .collect::<Vec<_>>()
+                        })
+                        .collect::<Vec<_>>()
+                });
+                println!("{model:?} {n} {:?} {:?} {c:?}", w.bodies[pad].translation(), w.bodies[pad].linvel());
+            }
+        }
+        let _ = block;
+    }
+}
+
+#[test]
+#[ignore]
+fn probe_rig() {
+    use stickslip::conformance::native_friction::*;
+    use stickslip::engine::Scheme;
+    use stickslip::engine::mechanism::*;
+    use stickslip::model::*;
+    let args: f64 = std::env::var("XI1").unwrap().parse().unwrap();
+    let p = RigParameters { xi1: args, ..Default::default() };
+    let orbit =
+        stickslip::orbit::limit_cycle(p, |p| Ok(stickslip::exact::TwoMassFlow::new(&TwoMassRig::new(p)?))).unwrap();
+    println!("exact {} w {}", orbit.amplitude(), orbit.angular_frequency());
+    for (mechanism, mass, spring) in [
+        (FrictionMechanism::Hook, 0.01, ElementSpring::Hook),
+        (FrictionMechanism::SaturatingMotor, 0.01, ElementSpring::Hook),
+        (FrictionMechanism::LimitedMotor, 0.01, ElementSpring::Hook),
+        (FrictionMechanism::LimitedMotor, 0.001, ElementSpring::Hook),
+        (FrictionMechanism::LimitedMotor, 0.001, ElementSpring::SpringJoint),
+        (FrictionMechanism::JointFriction, 0.001, ElementSpring::Hook),
+        (FrictionMechanism::CoulombContact, 0.01, ElementSpring::Hook),
+        (FrictionMechanism::CoulombContact, 0.001, ElementSpring::Hook),
+        (FrictionMechanism::CoulombContact, 0.001, ElementSpring::SpringJoint),
+    ] {
+        for (step, substeps, scheme) in [
+            (1.0 / 240.0, 1, Scheme::SecondOrder),
+            (1.0 / 60.0, 1, Scheme::SecondOrder),
+            (1.0 / 60.0, 4, Scheme::Plain),
+        ] {
+            let joints =
+                if mechanism == FrictionMechanism::JointFriction { Joints::Multibody } else { Joints::Impulse };
+            let settings = EngineSettings { step, substeps, joints, scheme, precision: Precision::Double };
+            let m = two_mass(
+                &stickslip::conformance::Rapier,
+                Making::new(mechanism, mass, spring),
+                p,
+                &orbit,
+                settings,
+                1000.0,
+            );
+            match m {
+                Ok(m) => println!(
+                    "{} {} {} 1/{:.0} n={}: {:.4} .. {:.4} w {:.6}",
+                    mechanism.words(),
+                    mass,
+                    spring.words(),
+                    1.0 / step,
+                    substeps,
+                    m.maxima[0],
+                    m.maxima[1],
+                    m.angular_frequency
+                ),
+                Err(e) => println!(
+                    "{} {} {} 1/{:.0} n={}: {e}",
+                    mechanism.words(),
+                    mass,
+                    spring.words(),
+                    1.0 / step,
+                    substeps
+                ),
             }
         }
     }

@@ -120,7 +120,9 @@ impl MechanismWorld {
         Ok(collider)
     }
 
-    /// A pad that can move along x and y alone, lying on a fixed block.
+    /// A pad that does not turn, lying on a fixed block. Its way along z stays free though nothing pushes there: with that translation
+    /// locked as well, the two-by-two system that Rapier solves for the friction of a contact is singular, its inverse is set
+    /// to zero, and there is no friction at all.
     fn add_pad(
         &mut self,
         body: RigidBodyBuilder,
@@ -128,7 +130,7 @@ impl MechanismWorld {
         numbers: [f64; 3],
         slip_force: f64,
     ) -> Result<(), EngineError> {
-        let body = body.locked_axes(LockedAxes::ROTATION_LOCKED | LockedAxes::TRANSLATION_LOCKED_Z);
+        let body = body.locked_axes(LockedAxes::ROTATION_LOCKED);
         let collider = self.insert(body, rest, numbers, false)?;
         let touching = InteractionGroups::all();
         let friction = narrow(FRICTION_COEFFICIENT);
