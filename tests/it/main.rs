@@ -17,6 +17,9 @@ mod convergence;
 mod demonstration;
 mod derivatives;
 mod diagram;
+mod disk_exact;
+mod disk_linear;
+mod disk_waves;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
