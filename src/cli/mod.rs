@@ -9,6 +9,7 @@ mod film;
 mod generate;
 mod hopf;
 mod lyapunov;
+mod modes;
 mod motions;
 mod orbit;
 mod paper;
@@ -49,6 +50,7 @@ enum Command {
     Poincare(poincare::PoincareArgs),
     Diagram(diagram::DiagramArgs),
     Paper(paper::PaperArgs),
+    Modes(modes::ModesArgs),
     /// Print the JSON Schema of scene files.
     Schema(generate::SchemaArgs),
     /// Print shell completions.
@@ -94,6 +96,7 @@ pub fn main() -> ExitCode {
         Command::Poincare(args) => poincare::run(&args),
         Command::Diagram(args) => diagram::run(&args),
         Command::Paper(args) => paper::run(&args),
+        Command::Modes(args) => modes::run(&args),
         Command::Schema(args) => generate::schema(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man => generate::man(),

@@ -23,6 +23,9 @@ mod diagram;
 mod doubling;
 #[cfg(feature = "cli")]
 mod engine_map;
+mod disk_exact;
+mod disk_linear;
+mod disk_waves;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
