@@ -135,7 +135,8 @@ fn rows(
     Ok(rows)
 }
 
-fn prepare(p: RigParameters) -> Result<(TwoMassFlow, State), OrbitError> {
+/// The exact flow, and where its motion starts.
+pub fn prepare(p: RigParameters) -> Result<(TwoMassFlow, State), OrbitError> {
     let start = match motions::exact_limit_cycle(p) {
         Ok(orbit) => {
             let mut state = orbit.reversal();

@@ -2,11 +2,13 @@
 
 mod case;
 mod description;
+mod direction;
 mod error;
 mod load;
 
 pub use case::Case;
-pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation};
+pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation, Theme};
+pub use direction::{Direction, Panel};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;
 

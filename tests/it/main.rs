@@ -48,6 +48,8 @@ mod small_disk;
 #[cfg(feature = "render")]
 mod small_scene;
 mod special_curves;
+#[cfg(feature = "render")]
+mod stage;
 mod store;
 mod symmetry;
 mod tangent;
