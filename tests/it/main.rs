@@ -4,6 +4,8 @@ mod asymmetric;
 #[cfg(feature = "render")]
 mod back_ends;
 mod branches;
+#[cfg(feature = "cli")]
+mod browser;
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
@@ -36,6 +38,8 @@ mod numerical_damping;
 mod orbits;
 #[cfg(feature = "render")]
 mod overlays;
+#[cfg(feature = "cli")]
+mod paper;
 #[cfg(feature = "render")]
 mod pictures;
 mod poincare;
