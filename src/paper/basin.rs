@@ -15,15 +15,15 @@ pub(super) const ITEM: PaperItem = PaperItem {
     id: "basin",
     origin: Origin::Beyond,
     title: "which starts stay bounded",
-    caption: "Initial positions (x₁, x₂), at rest with a relaxed slider, from which the exact motion stays bounded for 3000 time units (dark: that long; light: at least 300), at three values of ξ₁. White: diverges sooner. \
+    caption: "Initial positions (x₁, x₂), at rest with a relaxed slider, from which the exact motion stays bounded for 3000 time units (blue; grey: for at least 300), at three values of ξ₁. White: diverges sooner. \
         Beyond some distance friction cannot hold the self-excitation; the bounded region shrinks as the self-excitation grows.",
-    revision: 1,
+    revision: 2,
     compute,
 };
 
 const XI1: [f64; 3] = [-0.06, -0.12, -0.155];
 /// Half the side of the square.
-const EXTENT: f64 = 12.0;
+const EXTENT: f64 = 20.0;
 /// A motion watched for the longer time is called bounded.
 const WATCHED: [f64; 2] = [300.0, 3000.0];
 
@@ -46,7 +46,7 @@ impl Basin {
 }
 
 fn compute(case: &Case) -> Result<Findings, PaperError> {
-    let side = case.choose(121, 17);
+    let side = case.choose(161, 21);
     let basins = XI1.iter().map(|&xi1| basin(case, xi1, side)).collect::<Result<Vec<_>, _>>()?;
     let mut findings = Findings::default();
     for basin in &basins {
@@ -63,7 +63,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         shrinks,
         "stronger self-excitation meets the same friction: the unstable upper limit cycle that bounds the region comes closer (Fig. 1)",
     )));
-    findings.verdict = format!("Bounded for 3000 time units: {} of the square |x| ≤ 12.", shares.join(", "));
+    findings.verdict = format!("Bounded for 3000 time units: {} of the square |x| ≤ 20.", shares.join(", "));
     let grid = values(-EXTENT, EXTENT, side);
     let cells = || basins.iter().flat_map(|basin| (0..side * side).map(move |n| (basin, n)));
     findings.table(
@@ -75,7 +75,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
             ("life_time_at_most_3000", cells().map(|(basin, n)| basin.lives[n]).collect()),
         ]),
     );
-    findings.figure = Some(Figure::grid(3, (1200, 500), basins.iter().map(panel).collect()));
+    findings.figure = Some(Figure::grid(3, (1200, 450), basins.iter().map(panel).collect()));
     Ok(findings)
 }
 
@@ -127,10 +127,12 @@ fn panel(basin: &Basin) -> Panel {
     let reach = EXTENT + 0.5 * width;
     let mut panel =
         Panel::new("x₁(0)", "x₂(0)").titled(&title).equal_aspect().x_range(-reach, reach).y_range(-reach, reach);
-    let levels = [(WATCHED[0], Tint::Sky, "bounded for 300"), (WATCHED[1], Tint::Blue, "bounded for 3000")];
+    let levels = [(WATCHED[0], Tint::Grey, "bounded for 300"), (WATCHED[1], Tint::Blue, "bounded for 3000")];
     for (level, tint, label) in levels {
         for row in 0..basin.side {
             let y = -EXTENT + (row as f64 - 0.5) * width;
+            // A little overlap, so that rounding to pixels leaves no gap between rows.
+            let above = y + 1.05 * width;
             let mut column = 0;
             while column < basin.side {
                 let first = column;
@@ -140,7 +142,7 @@ fn panel(basin: &Basin) -> Panel {
                 if column > first {
                     let (left, right) =
                         (-EXTENT + (first as f64 - 0.5) * width, -EXTENT + (column as f64 - 0.5) * width);
-                    let outline = vec![(left, y), (right, y), (right, y + width), (left, y + width)];
+                    let outline = vec![(left, y), (right, y), (right, above), (left, above)];
                     panel = panel.with(Mark::Region { label: label.to_owned(), outline, tint });
                 }
                 column += 1;

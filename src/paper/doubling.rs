@@ -9,7 +9,8 @@
 //! ```
 //!
 //! leaves that floor at the i-th doubling. Splitting grows as the square root of the distance, so S_i^2 is linear in xi1, and the
-//! doubling is where the line through two points just beyond meets zero.
+//! doubling is where the line through two points beyond meets zero; not too near, for motions settle slowly there. A second line through
+//! larger splits tells how far that can be trusted.
 
 use super::check::Check;
 use super::error::PaperError;
@@ -24,8 +25,8 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Beyond,
     title: "doublings of the exact torus",
     caption: "Exact counterpart of Table 1. Left: points of the doubly cut torus (reversals, then the mean of the envelope of mass 2 passed upwards) over ξ₁. One point per torus, two after its first doubling, four after the second. \
-        Right: split of the points that the i-th doubling separates, with the level taken for resolved; the envelopes are interpolated, which leaves the floor near 2·10⁻⁴. Doublings are extrapolated from the growth of the split as the square root of the distance.",
-    revision: 1,
+        Right: split of the points that the i-th doubling separates, with the level taken for resolved; the envelopes are interpolated, which leaves the floor near 2·10⁻⁴. Doublings are extrapolated from the growth of the split as the square root of the distance; their uncertainty is the difference to an extrapolation from larger splits.",
+    revision: 2,
     compute,
 };
 
@@ -34,15 +35,16 @@ const RESOLVED: f64 = 2e-3;
 const FROM: f64 = -0.12;
 const TO: f64 = -0.155;
 /// Doublings looked for: the third split is some 1e-3 wide in xi1, the fourth would need a longer section than resolves it.
-const MOST: usize = 3;
-const HALVINGS: usize = 16;
+const MOST: u32 = 3;
+/// Of a bracket of at most 2e-3: to 1e-7.
+const HALVINGS: usize = 14;
 
 type Points = Vec<(f64, f64)>;
 
-/// A doubling with the place where its split was first resolved, the bracket of the extrapolation.
+/// A doubling by extrapolation, and by how much a second one, from larger splits, differs.
 struct Doubling {
     xi1: f64,
-    resolved: f64,
+    uncertainty: f64,
 }
 
 fn compute(case: &Case) -> Result<Findings, PaperError> {
@@ -53,16 +55,11 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         xi1.iter().zip(&sections).filter_map(|(xi1, s)| Some((*xi1, s.as_ref()?))).collect();
     let found = doublings(case, &rows)?;
     let mut findings = Findings { checks: checks(case, &rows, &found)?, ..Findings::default() };
-    let mut previous: Option<&[Doubling]> = None;
     for (n, doubling) in found.iter().enumerate() {
-        let bracket = (doubling.xi1 - doubling.resolved).abs();
-        findings.number(
-            &format!("doubling {}", n + 1),
-            format!("ξ₁ = {:.5} (split resolved {bracket:.0e} beyond)", doubling.xi1),
-        );
-        previous = Some(&found[..=n]);
+        findings
+            .number(&format!("doubling {}", n + 1), format!("ξ₁ = {:.5} ± {:.0e}", doubling.xi1, doubling.uncertainty));
     }
-    if let Some([.., a, b, c]) = previous {
+    if let [a, b, c] = found.as_slice() {
         findings.number("ratio of successive gaps", format!("{:.2}", (a.xi1 - b.xi1) / (b.xi1 - c.xi1)));
     }
     findings.number("Table 1, slow flow of the paper", "−0.105575, −0.126635, −0.132058, …");
@@ -91,7 +88,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
 fn section(case: &Case, xi1: f64) -> Result<Option<Points>, PaperError> {
     let (flow, start) = beside_the_cycle(case.at(xi1))?;
     let window =
-        case.choose(Window { transient: 20_000.0, length: 16_000.0 }, Window { transient: 5000.0, length: 5000.0 });
+        case.choose(Window { transient: 40_000.0, length: 12_000.0 }, Window { transient: 5000.0, length: 5000.0 });
     let map = poincare_map(&flow, &start, window, PoincareSection::Slow)?;
     let bounded = map.outcome == crate::dynamics::Outcome::Completed;
     Ok(bounded.then(|| map.points.iter().map(|point| (point[1], point[2])).collect()))
@@ -107,32 +104,38 @@ fn split(points: &Points, doubling: u32) -> f64 {
 
 fn doublings(case: &Case, rows: &[(f64, &Points)]) -> Result<Vec<Doubling>, PaperError> {
     let mut found: Vec<Doubling> = Vec::new();
-    for i in 1..=MOST as u32 {
+    for i in 1..=MOST {
+        // Later doublings split less before the next one comes. At the first level motions settle within the transient.
+        let first = 0.02 * 0.5_f64.powi(i as i32 - 1);
+        let levels = [first, 1.5 * first, 2.25 * first];
         // Split by this doubling and not yet by the next: neither single nor chaotic.
         let regular = |points: &Points| split(points, i + 1) < 0.5 * split(points, i);
-        let Some(n) = rows.iter().position(|row| split(row.1, i) > RESOLVED) else { break };
-        if n == 0 || !regular(rows[n].1) {
+        let Some(far) = rows.iter().position(|row| split(row.1, i) > levels[2]) else { break };
+        let Some(near) = rows[..far].iter().rposition(|row| split(row.1, i) < levels[0]) else { break };
+        if !regular(rows[far].1) {
             break;
         }
-        let split_at = |xi1: f64| Ok::<_, PaperError>(section(case, xi1)?.map_or(f64::NAN, |points| split(&points, i)));
-        let (mut single, mut split_there) = (rows[n - 1].0, rows[n].0);
-        for _ in 0..case.choose(HALVINGS, 5) {
-            let middle = 0.5 * (single + split_there);
-            if split_at(middle)? > RESOLVED { split_there = middle } else { single = middle }
-        }
-        // A second point on the square-root law, where the split is about twice as large.
-        let resolved = split_there;
-        let first = split_at(resolved)?;
-        let mut step = 1e-6;
-        let mut second = split_at(resolved - step)?;
-        while second < 2.0 * first && step < 1e-3 {
-            step *= 2.0;
-            second = split_at(resolved - step)?;
-        }
-        let rate = (second * second - first * first) / step;
-        found.push(Doubling { xi1: resolved + first * first / rate, resolved });
+        let places: Vec<Result<f64, PaperError>> =
+            levels.par_iter().map(|&level| place(case, i, level, rows[near].0, rows[far].0)).collect();
+        let places = places.into_iter().collect::<Result<Vec<_>, _>>()?;
+        // Squares over xi1 are a straight line: where it meets zero.
+        let zero = |a: usize, b: usize| {
+            let rate = (levels[b].powi(2) - levels[a].powi(2)) / (places[a] - places[b]);
+            places[a] + levels[a].powi(2) / rate
+        };
+        found.push(Doubling { xi1: zero(0, 1), uncertainty: (zero(0, 1) - zero(1, 2)).abs() });
     }
     Ok(found)
+}
+
+/// Where the split by doubling `i` passes a level, by halving.
+fn place(case: &Case, i: u32, level: f64, mut below: f64, mut above: f64) -> Result<f64, PaperError> {
+    for _ in 0..case.choose(HALVINGS, 4) {
+        let middle = 0.5 * (below + above);
+        let found = section(case, middle)?.map_or(f64::NAN, |points| split(&points, i));
+        if found > level { above = middle } else { below = middle }
+    }
+    Ok(0.5 * (below + above))
 }
 
 fn checks(case: &Case, rows: &[(f64, &Points)], found: &[Doubling]) -> Result<Vec<Check>, PaperError> {
@@ -163,6 +166,7 @@ fn figure(rows: &[(f64, &Points)], found: &[Doubling]) -> Figure {
     let right = Panel::new("ξ₁", "split of the points")
         .log_y()
         .x_range(TO, FROM)
+        .y_range(3e-5, 0.3)
         .with(Mark::BandY { label: "not resolved".to_owned(), from: None, to: Some(RESOLVED), tint: Tint::LightGrey })
         .series(Series::new("", level, Style::Thin, Tint::Grey))
         .series(Series::new("first doubling", split(1), Style::Dots, Tint::Blue))

@@ -11,8 +11,6 @@ use crate::model::{RigParameter, RigParameters, TwoMassRig};
 use crate::orbit::{Bifurcation, Branch, Heading, OrbitError, PseudoArclength, SpecialPoint, limit_cycle};
 use rayon::prelude::*;
 
-/// Where the branch starts, in units of gamma: the cycle has amplitude 1.007 there.
-const BRANCH_START: f64 = -0.001;
 /// Where a branch without a fold is given up.
 const LARGEST_AMPLITUDE: f64 = 50.0;
 /// How far x2 is moved off the limit cycle: visible at once, and far inside the basin.
@@ -20,13 +18,19 @@ const PERTURBATION: f64 = 0.001;
 /// Start where there is no limit cycle: beyond the slip limit, as its orbits are.
 const ELSEWHERE: [f64; 5] = [1.2, 0.9, 0.0, -0.5, 1.0];
 
+/// Where the branch starts: the cycle has amplitude 1.007 at most there, and it lies before the secondary Hopf point, which scales as kappa^2.
+fn branch_start(parameters: RigParameters) -> RigParameters {
+    let xi1 = -(0.001 * parameters.gamma).min(0.05 * parameters.kappa * parameters.kappa);
+    RigParameters { xi1, ..parameters }
+}
+
 pub(super) fn flow(parameters: RigParameters) -> Result<TwoMassFlow, OrbitError> {
     Ok(TwoMassFlow::new(&TwoMassRig::new(parameters)?))
 }
 
 /// The branch of limit cycles over xi1 from a1 = 1 to an amplitude of mass 1, with its special points.
 pub(super) fn branch(parameters: RigParameters, amplitude: f64) -> Result<Branch, PaperError> {
-    let start = RigParameters { xi1: BRANCH_START * parameters.gamma, ..parameters };
+    let start = branch_start(parameters);
     let orbit = limit_cycle(start, flow)?;
     let points = PseudoArclength::new(flow, start, &orbit, RigParameter::Xi1, Heading::Decreasing)?;
     Ok(Branch::follow(points.up_to_amplitude(amplitude), |_| false)?)
@@ -34,7 +38,7 @@ pub(super) fn branch(parameters: RigParameters, amplitude: f64) -> Result<Branch
 
 /// The branch up to its first fold.
 pub(super) fn branch_to_fold(parameters: RigParameters) -> Result<Branch, PaperError> {
-    let start = RigParameters { xi1: BRANCH_START * parameters.gamma, ..parameters };
+    let start = branch_start(parameters);
     let points = PseudoArclength::new(flow, start, &limit_cycle(start, flow)?, RigParameter::Xi1, Heading::Decreasing)?;
     let points = points.up_to_amplitude(LARGEST_AMPLITUDE);
     Ok(Branch::follow(points, |branch| branch.special_of(Bifurcation::Fold).next().is_some())?)
@@ -91,7 +95,7 @@ pub(super) fn values(from: f64, to: f64, count: usize) -> Vec<f64> {
 pub(super) fn diagram(case: &Case, parameters: RigParameters, xi1: &[f64]) -> Result<Vec<DiagramRow>, PaperError> {
     let row = |&xi1: &f64| {
         let at = RigParameters { xi1, ..parameters };
-        let window = settled(case, at, case.choose(3500.0, 1000.0));
+        let window = settled(case, at, case.choose(8000.0, 1000.0));
         let plan = DiagramPlan { window, ..DiagramPlan::default() };
         let rows = amplitude_diagram(&[xi1], &plan, &[], |_| beside_the_cycle(at), |_, _, _| {})?;
         Ok(rows)

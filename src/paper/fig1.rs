@@ -17,7 +17,7 @@ pub(super) const ITEM: PaperItem = PaperItem {
     caption: "Amplitude of mass 1 over the damping ξ₁ of the self-excited mode. Lines: limit cycles, stable (solid) and unstable (dashed), up to the fold and back. \
         Dots: largest and smallest maximum of the steady motion started beside the limit cycle. A: at rest; B: limit cycle; C: torus, then chaos; D: divergence, beyond which \
         nothing bounded was found from these starts, and the fold, beyond which there is no limit cycle. Where the paper sketches, everything here is computed.",
-    revision: 1,
+    revision: 2,
     compute,
 };
 
@@ -70,8 +70,9 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
 }
 
 fn figure(branch: &Branch, rows: &[DiagramRow], end: f64) -> Figure {
-    let mut panel =
-        Panel::new("damping of the in-phase mode ξ₁", "amplitude a₁").x_range(end, -0.08 * end).y_range(0.0, AMPLITUDE);
+    let mut panel = Panel::new("damping of the in-phase mode ξ₁", "amplitude a₁")
+        .x_range(end, -0.08 * end)
+        .y_range(-0.25, AMPLITUDE);
     if let Some(edge) = divergence_edge(rows) {
         panel = panel.with(diverging(edge.first_diverged));
     }

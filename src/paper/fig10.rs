@@ -2,7 +2,7 @@
 
 use super::check::Check;
 use super::error::PaperError;
-use super::exact::{branch, diagram, secondary_hopf, values};
+use super::exact::{branch, diagram, fold, secondary_hopf, values};
 use super::fig1::{branch_series, diverging, steady_series, steady_table};
 use super::item::{Case, Findings, Origin, PaperItem};
 use crate::chaos::{DiagramRow, MotionClass, divergence_edge};
@@ -15,8 +15,8 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Paper("Fig. 10"),
     title: "limit cycles that regain stability",
     caption: "Amplitude diagrams for (a) κ = 0.074, (b) κ = 0.21, (c) γ = 0.7, the other parameters as above. Lines: limit cycles, stable (solid) and unstable (dashed). Dots: largest and smallest maximum of the steady motion started beside the limit cycle. \
-        Circles: both secondary Hopf points from Floquet multipliers; crosses: equation (31). Between the points the motion is a torus; beyond the second the limit cycle attracts again.",
-    revision: 1,
+        Circles: both secondary Hopf points from Floquet multipliers; crosses: equation (31). Between the points the motion is a torus; beyond the second the limit cycle attracts again, in (b) up to its fold. The second point of equation (31) lies outside (b), at −1.53.",
+    revision: 2,
     compute,
 };
 
@@ -38,7 +38,8 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         let end = 1.5 * hopf.last().map_or(-0.1, |point| point.0);
         let count = case.choose(201, 31);
         let rows = diagram(case, parameters, &values(end / (count - 1) as f64, end, count))?;
-        findings.checks.extend(checks(case, name, &hopf, &rows));
+        let fold = fold(&branch).map_or(f64::NEG_INFINITY, |fold| fold.parameters.xi1);
+        findings.checks.extend(checks(case, name, &hopf, &rows, fold));
         let shown: Vec<_> = hopf.iter().map(|point| format!("{:.9}", point.0)).collect();
         findings.number(&format!("{name}: secondary Hopf points, exact"), shown.join(", "));
         let analytic = parameters.analytic_hopf();
@@ -53,7 +54,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     Ok(findings)
 }
 
-fn checks(case: &Case, name: &str, hopf: &[(f64, f64)], rows: &[DiagramRow]) -> Vec<Check> {
+fn checks(case: &Case, name: &str, hopf: &[(f64, f64)], rows: &[DiagramRow], fold: f64) -> Vec<Check> {
     let count = Check::near(
         &format!("{name}: secondary Hopf points"),
         2.0,
@@ -71,7 +72,8 @@ fn checks(case: &Case, name: &str, hopf: &[(f64, f64)], rows: &[DiagramRow]) -> 
     let reason = "Floquet multipliers decide: nearly every motion; a twentieth is left to motions that settle too slowly to be told (a tenth of the range at either point is left out)";
     let between = share(&|xi1| xi1 < start - gap && xi1 > end + gap, MotionClass::Torus);
     let before = share(&|xi1| xi1 > start + gap, MotionClass::LimitCycle);
-    let beyond = share(&|xi1| xi1 < end - gap, MotionClass::LimitCycle);
+    // There is no limit cycle beyond the fold.
+    let beyond = share(&|xi1| xi1 < end - gap && xi1 > fold, MotionClass::LimitCycle);
     vec![
         case.nominal_only(count),
         case.nominal_only(Check::at_least(

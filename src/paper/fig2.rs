@@ -20,7 +20,7 @@ pub(super) const ITEM: PaperItem = PaperItem {
     caption: "(a) The rig: two unit masses on the ground springs 1 − γ and 1, coupled by κ; dampers with the damping ξ₁ of the in-phase and ξ₂ of the out-of-phase mode. \
         (b) The Jenkins element: a spring of stiffness γ in series with a slider that holds up to the force γ. \
         (c) Its force over the elongation, in units of γ, as Rapier simulates the rig with mass 1 moved as x₁ = 2 sin t, from the relaxed state (initial loading) through two cycles; the closed form lies beneath.",
-    revision: 1,
+    revision: 2,
     compute,
 };
 
@@ -59,7 +59,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     findings.figure = Some(Figure {
         panels: vec![schematic::rig(), schematic::jenkins_element(), hysteresis(ours, reference)],
         columns: 3,
-        size: (1260, 430),
+        size: (1320, 440),
         ..Figure::single(Panel::new("", ""))
     });
     Ok(findings)
@@ -103,14 +103,14 @@ fn checks(ours: &[(f64, f64)], reference: &[(f64, f64)], cycle: &[(f64, f64)], s
 }
 
 fn hysteresis(ours: Vec<(f64, f64)>, reference: Vec<(f64, f64)>) -> Panel {
-    let loading = (0.5, 0.5);
     Panel::new("elongation x₁", "force / γ")
         .titled("(c) hysteresis cycle")
         .x_range(-2.3, 2.3)
         .y_range(-1.3, 1.3)
         .series(Series::new("closed form", reference, Style::Line, Tint::LightGrey))
         .series(Series::new("Rapier", ours.into_iter().step_by(5).collect(), Style::Dots, Tint::Blue))
-        .text(loading, "initial loading", Side::Centre)
+        .text((-0.45, -0.45), "initial loading", Side::Centre)
+        .arrow((-0.15, -0.3), (0.22, 0.12))
         .arrow((-1.0, -0.87), (-0.2, -0.87))
         .arrow((1.0, 0.87), (0.2, 0.87))
 }

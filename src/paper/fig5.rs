@@ -18,8 +18,8 @@ pub(super) const ITEM: PaperItem = PaperItem {
     title: "amplitude diagram",
     caption: "Largest and smallest maximum of |x₁| in the steady motion over ξ₁, for motions of the exact system started on the limit cycle with x₂ moved by 0.001, coloured by the kind of motion. \
         The line is the limit cycle, the marker the secondary Hopf point from its Floquet multipliers. Kinks of the upper edge at ξ₁ = −0.130 and −0.145 are doublings of the torus. \
-        Shaded: motions that diverge. Each motion is watched for 3500 time units after it has settled.",
-    revision: 1,
+        Shaded: motions that diverge. Each motion is watched for 8000 time units after it has settled.",
+    revision: 2,
     compute,
 };
 
@@ -115,8 +115,8 @@ fn figure(branch: &Branch, rows: &[DiagramRow], hopf: Option<(f64, f64)>, end: f
     if let Some(edge) = divergence_edge(rows) {
         panel = panel.with(diverging(edge.first_diverged));
     }
-    panel = branch_series(branch).into_iter().fold(panel, Panel::series);
     panel = steady_series(rows).into_iter().fold(panel, Panel::series);
+    panel = branch_series(branch).into_iter().fold(panel, Panel::series);
     let at = hopf.into_iter().collect();
     Figure::single(panel.series(Series::new("secondary Hopf (exact)", at, Style::Rings, Tint::Purple)))
 }

@@ -18,8 +18,8 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Beyond,
     title: "Lyapunov exponents over ξ₁",
     caption: "The four finite Lyapunov exponents of the exact motion started beside the limit cycle, from exact tangents over 30 000 time units (upper panel), and the three largest enlarged (lower). \
-        Limit cycle: l₁ = 0 alone; torus: l₁ = l₂ = 0; chaos: l₁ > 0. Stretches within chaos where l₁ falls back to 0 are periodic windows. The fifth exponent is −∞: slip wipes out one direction.",
-    revision: 1,
+        Limit cycle: l₁ = 0 alone; torus: l₁ = l₂ = 0; chaos: l₁ > 0. Stretches within chaos where l₁ falls back to 0 are windows of regular motion. The fifth exponent is −∞: slip wipes out one direction.",
+    revision: 2,
     compute,
 };
 
@@ -104,10 +104,15 @@ fn figure(rows: &[(f64, &LyapunovSpectrum)]) -> Figure {
         |n: usize| rows.iter().map(|row| (row.0, row.1.exponents.get(n).copied().unwrap_or(f64::NAN))).collect();
     let looks = [("l₁", Tint::Vermillion), ("l₂", Tint::Blue), ("l₃", Tint::Green), ("l₄", Tint::Grey)];
     let panel = |shown: usize| {
-        let base = Panel::new("damping of the in-phase mode ξ₁", "exponent");
-        looks.iter().take(shown).enumerate().rev().fold(base, |panel, (n, (name, tint))| {
+        // The legend names them in order; the largest is drawn last, on top.
+        let base = looks
+            .iter()
+            .fold(Panel::new("damping of the in-phase mode ξ₁", "Lyapunov exponent"), |panel, (name, tint)| {
+                panel.series(Series::new(name, Vec::new(), Style::Dots, *tint))
+            });
+        looks.iter().take(shown).enumerate().rev().fold(base, |panel, (n, (_, tint))| {
             panel.series(Series::new("", series(n), Style::Thin, *tint)).series(Series::new(
-                name,
+                "",
                 series(n),
                 Style::Dots,
                 *tint,
@@ -115,6 +120,6 @@ fn figure(rows: &[(f64, &LyapunovSpectrum)]) -> Figure {
         })
     };
     let low = rows.last().map_or(LOWEST, |row| row.0);
-    let close = panel(3).x_range(low - 0.002, -0.018).y_range(-0.012, 0.012);
+    let close = panel(3).titled("the three largest, enlarged").x_range(low - 0.002, -0.018).y_range(-0.012, 0.012);
     Figure::grid(1, (1000, 860), vec![panel(4).x_range(low - 0.002, -0.018), close])
 }

@@ -41,7 +41,7 @@ fn wall(panel: Panel, x: f64, [low, high]: [f64; 2], outwards: f64) -> Panel {
 }
 
 fn mass(panel: Panel, x: f64, label: &str) -> Panel {
-    let outline = vec![(x, -1.0), (x + 1.0, -1.0), (x + 1.0, 1.0), (x, 1.0)];
+    let outline = vec![(x, -1.9), (x + 1.0, -1.9), (x + 1.0, 1.9), (x, 1.9)];
     let mut edge = outline.clone();
     edge.push(outline[0]);
     let shade = Mark::Region { label: String::new(), outline, tint: Tint::Sky };
@@ -53,46 +53,44 @@ fn jenkins(panel: Panel, from: f64, to: f64, y: f64) -> Panel {
     let contact = from + 0.32 * (to - from);
     let panel = stroke(panel, vec![(from, y), (contact, y)]);
     // Two surfaces pressed onto each other.
-    let panel = stroke(panel, vec![(contact - 0.25, y - 0.04), (contact + 0.25, y - 0.04)]);
-    let panel = stroke(panel, vec![(contact - 0.25, y + 0.06), (contact + 0.25, y + 0.06), (contact + 0.25, y)]);
-    spring(panel, contact + 0.25, to, y)
+    let panel = stroke(panel, vec![(contact - 0.3, y), (contact + 0.3, y)]);
+    let panel = stroke(panel, vec![(contact - 0.3, y + 0.14), (contact + 0.3, y + 0.14), (contact + 0.3, y)]);
+    spring(panel, contact + 0.3, to, y)
 }
 
 /// Fig. 2 a.
 pub(super) fn rig() -> Panel {
-    let panel = Panel::new("", "").titled("(a) rig").bare().equal_aspect().x_range(-3.2, 6.2).y_range(-2.2, 2.0);
-    let panel = wall(wall(panel, -2.9, [-1.1, 1.1], -1.0), 5.9, [-1.1, 1.1], 1.0);
-    let panel = mass(mass(panel, -0.5, "1"), 2.5, "1");
-    let panel = spring(jenkins(panel, -2.9, -0.5, 0.7), -2.9, -0.5, 0.0);
-    let panel = damper(panel, -2.9, -0.5, -0.7);
-    let panel = damper(spring(panel, 0.5, 2.5, 0.4), 0.5, 2.5, -0.5);
-    let panel = damper(spring(panel, 3.5, 5.9, 0.4), 3.5, 5.9, -0.5);
-    let panel = panel
-        .text((-1.4, 1.05), "γ", Side::Centre)
-        .text((-1.7, 0.3), "1 − γ", Side::Centre)
-        .text((1.5, 0.78), "κ", Side::Centre)
-        .text((4.7, 0.78), "1", Side::Centre)
-        .text((-1.7, -1.15), "ξ₁", Side::Centre)
-        .text((1.5, -0.95), "(ξ₂ − ξ₁)/2", Side::Centre)
-        .text((4.7, -0.95), "ξ₁", Side::Centre);
+    let panel = Panel::new("", "").titled("(a) rig").bare().equal_aspect().x_range(-3.7, 7.3).y_range(-3.2, 2.4);
+    let panel = wall(wall(panel, -3.4, [-2.0, 2.0], -1.0), 7.0, [-2.0, 2.0], 1.0);
+    let panel = mass(mass(panel, -0.4, "1"), 3.4, "1");
+    let panel = spring(jenkins(panel, -3.4, -0.4, 1.4), -3.4, -0.4, 0.0);
+    let panel = damper(panel, -3.4, -0.4, -1.4);
+    let panel = damper(spring(panel, 0.6, 3.4, 0.8), 0.6, 3.4, -0.8);
+    let panel = damper(spring(panel, 4.4, 7.0, 0.8), 4.4, 7.0, -0.8);
+    let labels = [
+        ((-1.4, 1.95), "γ"),
+        ((-1.9, 0.5), "1 − γ"),
+        ((2.0, 1.3), "κ"),
+        ((5.7, 1.3), "1"),
+        ((-1.9, -0.9), "ξ₁"),
+        ((2.0, -0.3), "(ξ₂ − ξ₁)/2"),
+        ((5.7, -0.3), "ξ₁"),
+    ];
+    let panel = labels.into_iter().fold(panel, |panel, (at, text)| panel.text(at, text, Side::Centre));
     let coordinate = |panel: Panel, x: f64, name: &str| {
-        stroke(panel, vec![(x, -1.35), (x, -1.75)]).arrow((x, -1.55), (x + 0.8, -1.55)).text(
-            (x + 0.4, -1.62),
-            name,
-            Side::Below,
-        )
+        let panel = stroke(panel, vec![(x, -2.3), (x, -2.8)]);
+        panel.arrow((x, -2.55), (x + 0.9, -2.55)).text((x + 1.0, -2.55), name, Side::Right)
     };
-    coordinate(coordinate(panel, 0.0, "x₁"), 3.0, "x₂")
+    coordinate(coordinate(panel, 0.1, "x₁"), 3.9, "x₂")
 }
 
 /// Fig. 2 b.
 pub(super) fn jenkins_element() -> Panel {
-    let panel =
-        Panel::new("", "").titled("(b) Jenkins element").bare().equal_aspect().x_range(-3.4, 0.9).y_range(-1.4, 1.2);
-    let panel = wall(panel, -3.0, [-0.7, 0.7], -1.0);
+    let panel = Panel::new("", "").titled("(b) Jenkins element").bare().equal_aspect();
+    let panel = wall(panel.x_range(-3.4, 1.1).y_range(-1.4, 1.2), -3.0, [-0.7, 0.7], -1.0);
     jenkins(panel, -3.0, 0.0, 0.0)
-        .text((-2.05, -0.28), "holds |γ f| ≤ γ", Side::Centre)
+        .text((-2.05, -0.3), "slips at ±γ", Side::Centre)
         .text((-0.85, 0.36), "γ", Side::Centre)
         .arrow((0.05, 0.0), (0.6, 0.0))
-        .text((0.3, 0.28), "x₁, γ f", Side::Centre)
+        .text((0.5, 0.28), "x₁, force γ f", Side::Centre)
 }

@@ -18,7 +18,7 @@ const MARGIN: f64 = 12.0;
 /// Room for one line of an axis label or title.
 const LINE: f64 = 28.0;
 /// Pixels per labelled tick.
-const SPACING: (f64, f64) = (95.0, 60.0);
+const SPACING: (f64, f64) = (80.0, 60.0);
 const INK: (u8, u8, u8) = (0x30, 0x30, 0x30);
 const GRID: (u8, u8, u8) = (0xe6, 0xe6, 0xe6);
 
@@ -89,7 +89,7 @@ fn place(panel: &Panel, cell: Area, entries: Vec<Entry>) -> Result<Placed<'_>, R
     let mut area = Area {
         left: cell.left + beside,
         top: cell.top + title,
-        right: cell.right - 14.0,
+        right: cell.right - 22.0,
         bottom: cell.bottom - beneath,
     };
     let labels = |area: Area| {

@@ -103,7 +103,7 @@ pub enum Mark {
         to: Option<f64>,
         tint: Tint,
     },
-    /// Shaded polygon.
+    /// Shaded polygon; covers what was drawn before.
     Region {
         label: String,
         outline: Vec<(f64, f64)>,

@@ -9,7 +9,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::HPos;
 
 /// Opacity of shaded regions.
-pub(super) const SHADE: f64 = 0.22;
+pub(super) const SHADE: f64 = 0.3;
 /// Distance of a text from its point.
 const APART: f64 = 9.0;
 const ARROW_HEAD: f64 = 11.0;
@@ -39,12 +39,20 @@ pub(super) fn draw<B: DrawingBackend>(canvas: &mut Canvas<'_, B>, frame: &Frame,
         }
         Mark::Region { outline, tint, .. } => {
             let visible = frame.polygon(outline);
-            if visible.len() < 3 { Ok(()) } else { canvas.fill(&visible, tint.rgb(), SHADE) }
+            // Opaque: regions that share an edge or overlap leave no seam.
+            if visible.len() < 3 { Ok(()) } else { canvas.fill(&visible, pale(*tint), 1.0) }
         }
         Mark::Text { at, text, side, tint } => draw_text(canvas, frame.place(*at), text, *side, *tint),
         Mark::Arrow { from, to, tint } => draw_arrow(canvas, frame.place(*from), frame.place(*to), *tint),
         Mark::Slope { at, order, decades } => draw_slope(canvas, frame, *at, *order, *decades),
     }
+}
+
+/// The colour of a shade on white.
+fn pale(tint: Tint) -> (u8, u8, u8) {
+    let (r, g, b) = tint.rgb();
+    let mixed = |channel: u8| (255.0 - SHADE * (255.0 - f64::from(channel))).round() as u8;
+    (mixed(r), mixed(g), mixed(b))
 }
 
 fn band<B: DrawingBackend>(canvas: &mut Canvas<'_, B>, limits: Area, band: Area, tint: Tint) -> Result<(), Failure> {

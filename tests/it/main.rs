@@ -5,6 +5,8 @@ mod averaging;
 #[cfg(feature = "render")]
 mod back_ends;
 mod branches;
+#[cfg(feature = "cli")]
+mod browser;
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
@@ -47,6 +49,8 @@ mod numerical_damping;
 mod orbits;
 #[cfg(feature = "render")]
 mod overlays;
+#[cfg(feature = "cli")]
+mod paper;
 #[cfg(feature = "render")]
 mod pictures;
 mod poincare;

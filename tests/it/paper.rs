@@ -1,0 +1,112 @@
+//! The command that reproduces the paper, as a user meets it, and its checks, which must be able to fail.
+
+use crate::cli::{document, refused};
+use assert_cmd::Command;
+use std::fs;
+use std::path::Path;
+use stickslip::model::RigParameters;
+use stickslip::paper::{
+    Case, Check, Effort, Findings, ITEMS, Origin as Place, PaperError, PaperItem, run, write_index,
+};
+use stickslip::store::{Existing, Origin, OutputDir};
+
+/// Standard error of a run that must succeed.
+fn news(args: &[&str]) -> String {
+    let output = Command::cargo_bin("stickslip").unwrap().args(args).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{args:?}: {said}");
+    said
+}
+
+#[test]
+fn quick_items_pass_their_checks_and_leave_data_pictures_and_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let json = document(&["paper", "--quick", "--only", "fig2,fig5", "-o", path, "--json"]);
+    let items = json["items"].as_array().unwrap();
+    assert_eq!(items.iter().map(|item| item["id"].as_str().unwrap()).collect::<Vec<_>>(), ["fig2", "fig5"]);
+    for item in items {
+        assert_eq!(item["passed"], true, "{item}");
+        assert!(item["checks"].as_array().unwrap().len() >= 3);
+        for check in item["checks"].as_array().unwrap() {
+            assert!(
+                ["name", "expected", "found", "tolerance", "passed", "reason"]
+                    .iter()
+                    .all(|key| check.get(key).is_some())
+            );
+            assert!(!check["reason"].as_str().unwrap().is_empty());
+        }
+        for file in item["files"].as_array().unwrap() {
+            assert!(folder.path().join(file.as_str().unwrap()).exists());
+        }
+    }
+    let table = fs::read_to_string(folder.path().join("fig2.csv")).unwrap();
+    assert!(table.contains("# parameters: xi2 = 0.011, kappa = 0.1, gamma = 0.5") && table.contains("x1 [1]"));
+    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(page.contains("Where we differ") && page.contains("A quick run"));
+    assert_eq!(page.matches("<img").count(), 2);
+}
+
+#[test]
+fn finished_items_are_kept_and_damaged_ones_made_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let only = |ids: &str| news(&["paper", "--quick", "--only", ids, "-o", path]);
+    assert!(only("fig2").contains("fig2 done"));
+    let before = fs::read(folder.path().join("fig2.svg")).unwrap();
+    assert!(only("fig2").contains("fig2 kept"));
+    fs::write(folder.path().join("fig2.svg"), "damaged").unwrap();
+    assert!(only("fig2").contains("fig2 done"));
+    assert_eq!(fs::read(folder.path().join("fig2.svg")).unwrap(), before, "the same bytes again");
+    // Other parameters are another paper.
+    refused(&["paper", "--quick", "--only", "fig2", "-o", path, "--gamma", "0.7"], &["gamma", "--force"]);
+}
+
+#[test]
+fn unknown_items_are_refused_with_the_list() {
+    let ids: Vec<&str> = ITEMS.iter().map(|item| item.id).collect();
+    refused(&["paper", "--only", "fig99"], &ids);
+    refused(&["paper", "--only", "fig2", "--gamma", "1.5"], &["gamma = 1.5"]);
+}
+
+#[test]
+fn expectations_of_the_nominal_rig_do_not_apply_to_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let json = document(&["paper", "--quick", "--only", "fig1", "--gamma", "0.7", "-o", path, "--json"]);
+    let checks = json["items"][0]["checks"].as_array().unwrap();
+    assert!(checks.iter().any(|check| check["passed"].is_null()));
+    assert_eq!(json["items"][0]["passed"], true);
+}
+
+fn compute_nothing(case: &Case) -> Result<Findings, PaperError> {
+    let fold = case.nominal_only(Check::near("fold", -0.2, -0.215_051_734, 1e-3, "deliberately wrong"));
+    Ok(Findings { verdict: "wrong".to_owned(), checks: vec![fold], ..Findings::default() })
+}
+
+/// An expectation that is not met.
+const WRONG: PaperItem = PaperItem {
+    id: "wrong",
+    origin: Place::Beyond,
+    title: "a wrong expectation",
+    caption: "",
+    revision: 1,
+    compute: compute_nothing,
+};
+
+fn passes(parameters: RigParameters, folder: &Path) -> bool {
+    let case = Case { parameters, effort: Effort::Quick };
+    let dir = OutputDir::open(folder, &Origin::new("paper", serde_json::json!({})), Existing::Resume).unwrap();
+    let results = run(&[&WRONG], &case, &dir, |_| {}).unwrap();
+    write_index(&[(&WRONG, results[0].clone())], &case, &dir).unwrap();
+    results[0].passed
+}
+
+#[test]
+fn a_wrong_expectation_fails_its_item() {
+    let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    assert!(!passes(RigParameters::default(), folders[0].path()));
+    assert!(fs::read_to_string(folders[0].path().join("index.html")).unwrap().contains("✗ failed"));
+    // It is one of the nominal parameters.
+    assert!(passes(RigParameters { gamma: 0.6, ..Default::default() }, folders[1].path()));
+}
