@@ -23,6 +23,7 @@
 //! |---|---|
 //! | [`model`] | chain of N oscillators, Jenkins elements, self-excitation, units, linear modes, energy ledger |
 //! | [`dynamics`] | what all solvers share: states, trajectories, flows and their tangents, maps |
+//! | [`disk`] | bladed disks: travelling waves, their stability, random mistuning |
 //! | [`exact`] | closed-form flow in each contact state, certified events |
 //! | [`averaging`] | describing function and slow flow of the paper |
 //! | [`orbit`] | periodic orbits: shooting, Floquet multipliers, continuation, special points |
@@ -49,6 +50,7 @@ pub mod cli;
 pub mod compare;
 #[cfg(feature = "cli")]
 pub mod conformance;
+pub mod disk;
 pub mod dynamics;
 #[cfg(feature = "engine")]
 pub mod engine;

@@ -182,12 +182,18 @@ fn separation_growth<F: DenseFlow>(
 ) -> Result<f64, F::Error> {
     let stretch = window.length / RESCALINGS as f64;
     let time = |n: usize| (window.transient + n as f64 * stretch).min(motion.end());
-    let mut neighbour = motion.state(window.transient)?;
+    let after_stretch = |from: &State| {
+        let onwards = flow.motion(from, stretch)?;
+        onwards.state(onwards.end())
+    };
+    let mut base = motion.state(window.transient)?;
+    let mut neighbour = base.clone();
     neighbour.positions[1] += separation;
     let mut growth = 0.0;
     for n in 0..RESCALINGS {
-        let onwards = flow.motion(&neighbour, stretch)?;
-        let (mut there, here) = (onwards.state(onwards.end())?, motion.state(time(n + 1))?);
+        let mut there = after_stretch(&neighbour)?;
+        // Where a fresh start is itself a small change, both motions must have it, or it would count as separation.
+        let here = if flow.restarts_exactly() { motion.state(time(n + 1))? } else { after_stretch(&base)? };
         let distance = there.max_difference(&here);
         // Neighbours that meet to rounding separate no further.
         let scale = if distance > 0.0 { separation / distance } else { 0.0 };
@@ -195,7 +201,7 @@ fn separation_growth<F: DenseFlow>(
             growth -= scale.max(f64::MIN_POSITIVE).ln();
         }
         draw_in(&mut there, &here, scale);
-        neighbour = there;
+        (base, neighbour) = (here, there);
     }
     Ok(growth)
 }

@@ -176,5 +176,10 @@ pub fn load(path: Option<&Path>) -> anyhow::Result<Scene> {
 /// Checks the changed scene; `path` names it in errors.
 pub fn check(scene: &Scene, path: Option<&Path>) -> anyhow::Result<Case> {
     let origin = path.map_or_else(|| "built in".to_owned(), |path| path.display().to_string());
-    scene.checked(&origin).context("scene with the options given")
+    let case = scene.checked(&origin).context("scene with the options given")?;
+    ensure!(
+        case.disk.is_none(),
+        "scene {origin} is about a bladed disk, this command about the two-mass rig: take `modes` or `disk`"
+    );
+    Ok(case)
 }

@@ -4,7 +4,7 @@ use super::analysis::{RigInput, beside_the_cycle, exact_flow, window};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
 use super::{Verdict, case_args::parse_initial, motions};
-use crate::chaos::{PoincareMap, PoincareSection, poincare_map};
+use crate::chaos::{ChaosError, PoincareMap, PoincareSection, Rotation, poincare_map, torus_rotation, zero_one_test};
 use crate::dynamics::Outcome;
 use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::Initial;
@@ -24,6 +24,9 @@ enum SectionName {
 }
 
 /// Poincare section of the exact motion.
+///
+/// Beside the points: the rotation number of the torus, where the motion winds round one, and on the slow section, from 200 points on, the 0-1
+/// test for chaos (near 0: regular, near 1: chaotic).
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip poincare --xi1 -0.06 --section fast -o torus.csv")]
 pub struct PoincareArgs {
@@ -64,7 +67,13 @@ pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
     if let Some(path) = &args.common.output {
         super::simulate::refuse_to_overwrite(path, &parameters, args.common.force)?;
     }
-    let map = poincare_map(&exact_flow(p)?, &start, window(args.transient, args.t_end)?, section)?;
+    let (flow, window) = (exact_flow(p)?, window(args.transient, args.t_end)?);
+    let map = poincare_map(&flow, &start, window, section)?;
+    let rotation = where_defined(torus_rotation(&flow, &start, window))?;
+    let zero_one = match map.column("a1_deviation") {
+        Some(series) => where_defined(zero_one_test(&series))?,
+        None => None,
+    };
     if let Some(path) = &args.common.output {
         let columns = map.columns.iter().map(|name| Column {
             name: name.clone(),
@@ -82,11 +91,29 @@ pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
         let document = Document::new("poincare", parameters)
             .with("columns", json!(map.columns))
             .with("points", json!(map.points))
+            .with("rotation", json!(rotation))
+            .with("zero_one", json!(zero_one))
             .with("diverged", json!(matches!(map.outcome, Outcome::Diverged { .. })));
         return print(&document.text()?).map(|()| Verdict::Done);
     }
     print(&format!("{} points on the {name} section", map.points.len()))?;
+    if let Some(Rotation { rotation_number, rotation_error, slow_period, .. }) = rotation {
+        print(&format!(
+            "rotation {rotation_number:.9} +- {rotation_error:.1e} rad per half period, slow period {slow_period:.6}"
+        ))?;
+    }
+    if let Some(indicator) = zero_one {
+        print(&format!("0-1 test: {indicator:.3}"))?;
+    }
     Ok(Verdict::Done)
+}
+
+/// `None` where the motion has no such thing: it diverged, is too short, or does not wind round a torus.
+fn where_defined<T>(found: Result<T, ChaosError>) -> Result<Option<T>, ChaosError> {
+    match found {
+        Err(ChaosError::Diverged { .. } | ChaosError::TooShort { .. } | ChaosError::NotWinding { .. }) => Ok(None),
+        found => found.map(Some),
+    }
 }
 
 fn section_chart(map: &PoincareMap, name: &str, xi1: f64) -> anyhow::Result<Chart> {

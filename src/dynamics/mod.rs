@@ -2,6 +2,7 @@
 
 mod flow;
 mod motion;
+mod sampled;
 mod section;
 mod state;
 mod tangent;
@@ -9,6 +10,7 @@ mod trajectory;
 
 pub use flow::{Flow, HalfPeriodMap, HalfReturn, ReversalPoint};
 pub use motion::{DenseFlow, Motion};
+pub use sampled::{Sampled, SampledError, SampledMotion};
 pub use section::{Closure, SectionMap, SectionReturn};
 pub use state::{State, StateError};
 pub use tangent::{ParameterTangent, TangentFlow};

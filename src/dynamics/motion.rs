@@ -30,4 +30,10 @@ pub trait DenseFlow: Flow {
     /// # Errors
     /// If the initial state or the time cannot be used, or the solver fails.
     fn motion(&self, initial: &State, t_end: f64) -> Result<Self::Motion, Self::Error>;
+
+    /// Whether a motion goes on unchanged, but for rounding, when it is started again at one of its states. Not so where the solver remembers
+    /// more than the state.
+    fn restarts_exactly(&self) -> bool {
+        true
+    }
 }

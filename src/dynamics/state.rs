@@ -121,11 +121,13 @@ impl State {
                 .or_else(|| Direction::of(attachment.elongation(&self.jerk(chain, &acceleration))))
         };
         (0..chain.sliders())
-            .map(|index| match (self.slider_forces[index].abs() == 1.0, first_motion(index)) {
-                (true, Some(motion)) if Direction::of(self.slider_forces[index]) == Some(motion) => {
-                    ContactState::Slip(motion)
+            .map(|index| {
+                let force = self.slider_forces[index];
+                let loaded = if force.abs() == 1.0 { first_motion(index) } else { None };
+                match loaded.filter(|motion| Direction::of(force) == Some(*motion)) {
+                    Some(motion) => ContactState::Slip(motion),
+                    None => ContactState::Stick,
                 }
-                _ => ContactState::Stick,
             })
             .collect()
     }

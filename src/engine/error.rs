@@ -22,6 +22,11 @@ pub enum EngineError {
     /// Rapier did not take a multibody joint.
     #[error("engine: Rapier refused the multibody joint of oscillator {oscillator}: use impulse joints")]
     JointRefused { oscillator: usize },
+    /// A mechanism that Rapier does not have on these joints.
+    #[error(
+        "engine: {mechanism} on {joints} joints is not available: {reason}. Choose other joints or another mechanism"
+    )]
+    Unavailable { mechanism: &'static str, joints: &'static str, reason: &'static str },
     /// A force law returned infinity or NaN.
     #[error(
         "engine: the force on oscillator {oscillator} at t = {time} is {found}, expected a finite number: reduce the step"

@@ -6,3 +6,6 @@ const PRECISION: &str = "f32";
 
 #[path = "world.rs"]
 pub(super) mod world;
+
+#[path = "mechanism/world.rs"]
+pub(super) mod mechanism_world;

@@ -203,7 +203,7 @@ impl Plant for World {
     }
 }
 
-fn integration_parameters(settings: &EngineSettings) -> Result<IntegrationParameters, EngineError> {
+pub(super) fn integration_parameters(settings: &EngineSettings) -> Result<IntegrationParameters, EngineError> {
     let dt = real("step".to_owned(), settings.step)?;
     // A step that rounds to zero would make Rapier stand still without a word.
     if dt <= 0.0 {
@@ -221,23 +221,23 @@ fn integration_parameters(settings: &EngineSettings) -> Result<IntegrationParame
     })
 }
 
-fn prismatic(anchor_on_rail: Vector) -> PrismaticJoint {
+pub(super) fn prismatic(anchor_on_rail: Vector) -> PrismaticJoint {
     let mut joint = PrismaticJoint::new(Vector::X);
     joint.set_local_anchor1(anchor_on_rail).set_contacts_enabled(false);
     joint
 }
 
-fn cuboid(field: &str, half_extents: [f64; 3]) -> Result<ColliderBuilder, EngineError> {
+pub(super) fn cuboid(field: &str, half_extents: [f64; 3]) -> Result<ColliderBuilder, EngineError> {
     let half = vector(field, half_extents)?;
     Ok(ColliderBuilder::cuboid(half.x, half.y, half.z).collision_groups(InteractionGroups::none()))
 }
 
-fn vector(field: &str, [x, y, z]: [f64; 3]) -> Result<Vector, EngineError> {
+pub(super) fn vector(field: &str, [x, y, z]: [f64; 3]) -> Result<Vector, EngineError> {
     let component = |axis: usize, value| real(format!("{field}[{axis}]"), value);
     Ok(Vector::new(component(0, x)?, component(1, y)?, component(2, z)?))
 }
 
-fn real(field: String, value: f64) -> Result<Real, EngineError> {
+pub(super) fn real(field: String, value: f64) -> Result<Real, EngineError> {
     let rounded = narrow(value);
     if rounded.is_finite() {
         return Ok(rounded);
@@ -249,11 +249,11 @@ fn real(field: String, value: f64) -> Result<Real, EngineError> {
     clippy::unnecessary_cast,
     reason = "in f32 this rounds, beyond its range to infinity, which Rapier quarantines"
 )]
-fn narrow(value: f64) -> Real {
+pub(super) fn narrow(value: f64) -> Real {
     value as Real
 }
 
 #[allow(clippy::useless_conversion, reason = "in f32 this widens")]
-fn wide(value: Real) -> f64 {
+pub(super) fn wide(value: Real) -> f64 {
     f64::from(value)
 }

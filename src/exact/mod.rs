@@ -10,6 +10,7 @@
 //! - [`TwoMassFlow`]: the paper's rig in modal coordinates (`modal`, `modal_phase`, `modal_root`, `scan`, `walk`), about 0.1 us per event.
 //!   Its linearisation, with saltation at the switches, is in `tangent`.
 //! - [`ChainFlow`]: any chain, matrix exponential by series (`pattern`, `chain_walk`).
+//! - [`SparseFlow`]: large chains, Taylor series by sparse products (`sparse`), some microseconds per event and hundred oscillators.
 //! - [`PrescribedFlow`]: hysteresis under a prescribed motion of oscillator 0 (`prescribed`, `hysteresis`).
 //! - [`ExactTrajectory`]: the motion of either at any time, and its energy ledger (`piece`, `gauss`).
 //!
@@ -36,6 +37,7 @@ mod prescribed;
 mod scan;
 mod section;
 mod series;
+mod sparse;
 mod tangent;
 mod trajectory;
 mod two_mass;
@@ -45,5 +47,6 @@ pub use bound::DEFAULT_AMPLITUDE_BOUND;
 pub use chain_flow::ChainFlow;
 pub use error::ExactError;
 pub use prescribed::PrescribedFlow;
+pub use sparse::SparseFlow;
 pub use trajectory::{ExactTrajectory, Instant};
 pub use two_mass::{Arrival, Representation, TwoMassFlow};

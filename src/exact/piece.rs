@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::gauss::integrate;
 use super::modal_phase::{ModalPair, Phase};
 use super::pattern::{Expansion, Pattern};
+use super::sparse::{SparseSystem, TaylorSeries};
 use crate::dynamics::State;
 use crate::model::{ContactState, OscillatorChain, Works};
 use nalgebra::DVector;
@@ -22,6 +23,7 @@ pub(super) struct Piece {
 pub(super) enum Law {
     Modal { pair: Arc<ModalPair>, phase: Phase },
     Series { pattern: Arc<Pattern>, start: DVector<f64> },
+    Taylor { system: Arc<SparseSystem>, start: DVector<f64> },
 }
 
 /// A piece ready to be evaluated.
@@ -34,12 +36,17 @@ pub(super) struct Evaluator<'a> {
 enum Form<'a> {
     Modal { pair: &'a ModalPair, phase: &'a Phase },
     Series { expansion: Expansion, cell: f64 },
+    Taylor { series: TaylorSeries, length: usize, cell: f64 },
 }
 
 impl Piece {
     pub(super) fn evaluator<'a>(&'a self, chain: &'a OscillatorChain) -> Evaluator<'a> {
         let form = match &self.law {
             Law::Modal { pair, phase } => Form::Modal { pair, phase },
+            Law::Taylor { system, start } => {
+                let series = TaylorSeries::full(system, start.as_slice(), &self.contacts);
+                Form::Taylor { series, length: start.len(), cell: system.longest_cell() }
+            }
             Law::Series { pattern, start } => Form::Series { expansion: pattern.expand(start), cell: pattern.cell },
         };
         Evaluator { chain, contacts: &self.contacts, form }
@@ -51,6 +58,11 @@ impl Evaluator<'_> {
     pub(super) fn state(&self, time: f64) -> State {
         match &self.form {
             Form::Modal { pair, phase } => State::two_mass(pair.physical(phase, &pair.advanced(phase, time))),
+            Form::Taylor { series, length, .. } => {
+                let mut y = DVector::zeros(*length);
+                series.state(time, y.as_mut_slice());
+                state_of(self.chain, &y)
+            }
             Form::Series { expansion, .. } => state_of(self.chain, &expansion.at(time)),
         }
     }
@@ -59,7 +71,7 @@ impl Evaluator<'_> {
     fn smooth_span(&self) -> f64 {
         match &self.form {
             Form::Modal { pair, .. } => pair.smooth_span(),
-            Form::Series { cell, .. } => *cell,
+            Form::Series { cell, .. } | Form::Taylor { cell, .. } => *cell,
         }
     }
 

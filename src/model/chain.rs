@@ -72,13 +72,14 @@ impl OscillatorChain {
     /// Stiffness with the springs of the elements marked in `sticking` (one entry per element) added, N x N.
     #[must_use]
     pub fn stiffness_with(&self, sticking: &[bool]) -> DMatrix<f64> {
-        let n = self.oscillators();
         let mut total = self.stiffness.clone();
         for (element, _) in self.jenkins.iter().zip(sticking).filter(|(_, stuck)| **stuck) {
-            let mut b = vec![0.0; n];
-            element.attachment.scatter(1.0, &mut b);
-            let b = DVector::from_vec(b);
-            total += element.stiffness * &b * b.transpose();
+            // k b b^T: of the few entries of b, not of all.
+            for (i, bi) in element.attachment.direction() {
+                for (j, bj) in element.attachment.direction() {
+                    total[(i, j)] += element.stiffness * bi * bj;
+                }
+            }
         }
         total
     }

@@ -85,11 +85,11 @@ impl OscillatorChain {
     pub fn powers(&self, positions: &[f64], velocities: &[f64]) -> Works {
         let x = DVector::from_column_slice(positions);
         let v = DVector::from_column_slice(velocities);
-        let skew = 0.5 * (self.stiffness() - self.stiffness().transpose());
         Works {
             damping: -v.dot(&(self.damping() * &v)),
             self_excitation: -v.dot(&(self.self_excitation() * &v)),
-            circulatory: -v.dot(&(skew * x)),
+            // v^T (K - K^T)/2 x without forming the antisymmetric part.
+            circulatory: -0.5 * (v.dot(&(self.stiffness() * &x)) - x.dot(&(self.stiffness() * &v))),
             friction: 0.0,
             drive: 0.0,
         }

@@ -44,6 +44,15 @@ impl Attachment {
         }
     }
 
+    /// The entries of the direction `b` that are not zero: oscillator and sign.
+    pub fn direction(self) -> impl Iterator<Item = (usize, f64)> {
+        let (first, second) = match self {
+            Self::Ground(i) => ((i, 1.0), None),
+            Self::Between(i, j) => ((i, 1.0), Some((j, -1.0))),
+        };
+        std::iter::once(first).chain(second)
+    }
+
     pub(super) fn validate(self, field: &str, count: usize) -> Result<(), ParameterError> {
         let (i, j) = match self {
             Self::Ground(i) => (i, None),

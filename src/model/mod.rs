@@ -1,9 +1,10 @@
-//! What the system is: chain of oscillators, Jenkins elements, self-excitation, units, linear modes, energy.
+//! What the system is: chain of oscillators, bladed disk, Jenkins elements, self-excitation, units, linear modes, energy.
 //!
 //! Parameters and definitions only; nothing here evolves in time.
 
 mod chain;
 mod chain_builder;
+mod disk;
 mod energy;
 mod harmonic;
 mod jenkins;
@@ -17,6 +18,10 @@ mod scaling;
 
 pub use chain::OscillatorChain;
 pub use chain_builder::ChainBuilder;
+pub use disk::{
+    Aerodynamics, BladedDisk, ContactPlace, DiskSegments, FrictionContacts, Harmonic, InfluenceCoefficient,
+    InfluenceCoefficients, Mistuning, ModeShape, NodalDiameter, Topology, TravelDirection, TunedMode,
+};
 pub use energy::{EnergyLedger, Works};
 pub use harmonic::{HarmonicEstimate, sticking_angle};
 pub use jenkins::{Attachment, ContactState, Direction, JenkinsElement};

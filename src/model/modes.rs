@@ -4,6 +4,7 @@
 //! `s = -zeta + i w` with decay rate `zeta` (negative: growing) and damped angular frequency `w`.
 
 use super::chain::OscillatorChain;
+use super::quantity::ParameterError;
 use nalgebra::{Complex, DMatrix};
 use serde::Serialize;
 use thiserror::Error;
@@ -16,6 +17,16 @@ pub enum ModesError {
     NoConvergence { size: usize },
     #[error("sticking has {found} entries, expected {expected}: give one per Jenkins element")]
     WrongPattern { found: usize, expected: usize },
+    #[error(
+        "waves are modes of a ring with equal sectors only: this disk is an open chain or has contacts on some sectors; ask for its mode shapes"
+    )]
+    NotCyclic,
+    #[error(
+        "no shape was found for the mode at angular frequency {angular_frequency}: check for stiffnesses that differ by many orders of magnitude"
+    )]
+    NoShape { angular_frequency: f64 },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
 }
 
 /// One linear mode. Rates in 1/time, angles in rad.

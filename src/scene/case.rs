@@ -1,6 +1,7 @@
 //! A scene made ready: validated, non-dimensional, with the units to go back.
 
 use super::description::{Engine, Film, Initial, MotionKind, Scene};
+use super::disk::DiskCase;
 use super::error::{Fault, Place, SceneError};
 use crate::model::{ParameterError, PrescribedMotion, Range, RigParameters, Scales};
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,9 @@ pub struct Case {
     pub initial: Initial,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prescribed: Option<PrescribedMotion>,
+    /// A bladed disk; `parameters` and `initial` mean nothing then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub disk: Option<DiskCase>,
     pub duration: f64,
     pub amplitude_bound: f64,
     pub engine: Engine,
@@ -74,6 +78,7 @@ impl Scene {
             scales,
             initial: self.initial_state(&scales)?,
             prescribed: self.prescribed_motion(&scales)?,
+            disk: self.disk_case()?,
             duration,
             amplitude_bound,
             engine: self.engine,

@@ -1,7 +1,8 @@
 //! What a scene file says, as data. Where the rig is given in SI units (`[rig_si]`), every other length, velocity, force and
 //! time of the file is in SI too; where it is given non-dimensionally (`[rig]`), all are non-dimensional.
 
-use crate::model::{DimensionalRig, PrescribedMotion, RigParameters};
+use super::disk::DiskStart;
+use crate::model::{BladedDisk, DimensionalRig, PrescribedMotion, RigParameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +21,12 @@ pub struct Scene {
     /// The rig in SI units. Exclusive with `rig`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rig_si: Option<DimensionalRig>,
+    /// A bladed disk in place of the two-mass rig, non-dimensional. Exclusive with `rig`, `rig_si`, `initial` and `prescribed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub disk: Option<BladedDisk>,
+    /// How the blades of the disk start; at rest without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub disk_start: Option<DiskStart>,
     #[serde(default)]
     pub initial: Initial,
     /// Moves mass 1 as `amplitude sin(angular_frequency t)` and holds mass 2. Of `initial` only the slider force of a state counts then; it is 0 without one.

@@ -39,6 +39,10 @@ pub enum Fault {
     Whole { field: &'static str, found: u64, allowed: &'static str },
     #[error("a scene has either [rig] or [rig_si], this one has both: remove one")]
     TwoRigs,
+    #[error("a scene is about a [disk] or a two-mass rig, this one has [disk] and [{other}]: remove [{other}]")]
+    DiskWith { other: &'static str },
+    #[error("[disk_start] says how a disk starts, but there is none: add [disk]")]
+    StartWithoutDisk,
     #[error("slider force {found} is beyond the slip force {allowed}: give at most that")]
     BeyondSlipForce { found: f64, allowed: f64 },
     #[error(

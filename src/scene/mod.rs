@@ -2,11 +2,13 @@
 
 mod case;
 mod description;
+mod disk;
 mod error;
 mod load;
 
 pub use case::Case;
 pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation};
+pub use disk::{DiskCase, DiskStart, WaveStart};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Module and the modules of this crate it may import.
-const ALLOWED: [(&str, &[&str]); 17] = [
+const ALLOWED: [(&str, &[&str]); 18] = [
     ("render", &[]),
     ("store", &[]),
     ("model", &[]),
@@ -16,6 +16,7 @@ const ALLOWED: [(&str, &[&str]); 17] = [
     ("orbit", &["model", "dynamics"]),
     ("chaos", &["model", "dynamics"]),
     ("scene", &["model"]),
+    ("disk", &["dynamics", "exact", "model", "orbit", "store"]),
     ("compare", &["model", "dynamics"]),
     ("stage", &["scene", "model", "dynamics", "render"]),
     ("film", &["render", "store"]),
@@ -32,6 +33,7 @@ const ALLOWED: [(&str, &[&str]); 17] = [
             "chaos",
             "compare",
             "conformance",
+            "disk",
             "dynamics",
             "engine",
             "exact",

@@ -12,12 +12,20 @@ mod cli;
 mod cli_analysis;
 #[cfg(feature = "engine")]
 mod compare;
+#[cfg(feature = "cli")]
+mod conformance;
 #[cfg(feature = "engine")]
 mod convergence;
 #[cfg(feature = "render")]
 mod demonstration;
 mod derivatives;
 mod diagram;
+mod doubling;
+#[cfg(feature = "cli")]
+mod engine_map;
+mod disk_exact;
+mod disk_linear;
+mod disk_waves;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
@@ -32,6 +40,8 @@ mod hysteresis;
 mod independent;
 mod layering;
 mod lyapunov;
+#[cfg(feature = "cli")]
+mod mechanisms;
 #[cfg(feature = "engine")]
 mod numerical_damping;
 mod orbits;

@@ -1,0 +1,19 @@
+//! Nonlinear analysis of bladed disks: travelling-wave limit cycles, their stability and competition, and what random mistuning does.
+//!
+//! - [`TravellingWave`]: the wave of a tuned ring from one sector (`one_sector`), by harmonic balance with exact friction integrals.
+//! - [`ring_wave`], [`wave_multipliers`]: the same wave as an orbit of the whole ring under the exact flow, and its Floquet multipliers grouped
+//!   by interblade phase angle (`ring`).
+//! - [`wave_amplitudes`]: the spectrum by nodal diameter (`spectrum`).
+//! - [`MonteCarlo`]: flutter of randomly mistuned disks, resumable (`monte_carlo`).
+
+mod error;
+mod monte_carlo;
+mod one_sector;
+mod ring;
+mod spectrum;
+
+pub use error::DiskError;
+pub use monte_carlo::{Fate, FateCounts, MonteCarlo, SampleRow, Summary};
+pub use one_sector::{DESCRIBING_FUNCTION, MANY_HARMONICS, TravellingWave};
+pub use ring::{RingWave, WaveMultiplier, blade_amplitudes, largest_by_wave, ring_wave, wave_multipliers};
+pub use spectrum::{strongest, wave_amplitudes};

@@ -1,0 +1,122 @@
+//! Modes of a cyclic disk: travelling waves, one nodal diameter at a time.
+//!
+//! With one oscillator per sector the eigenvalue of a wave solves `s^2 + d(sigma) s + k(sigma) = 0` with complex d and k; of its two roots the
+//! one with positive imaginary part belongs to this wave, the other is the conjugate of the opposite wave's. With two oscillators
+//! per sector the same holds of the four eigenvalues of the 4 x 4 companion matrix.
+
+use super::bladed_disk::BladedDisk;
+use super::wave::NodalDiameter;
+use crate::model::{LinearMode, ModesError, OscillatorChain, ParameterError};
+use nalgebra::{Complex, DMatrix};
+
+/// A wave and how it oscillates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TunedMode {
+    pub wave: NodalDiameter,
+    /// Number among the modes of this wave, by angular frequency: 0 the lowest.
+    pub family: usize,
+    pub mode: LinearMode,
+}
+
+impl BladedDisk {
+    /// The waves of the disk without its mistuning, with all contacts stuck or all slipping, in order of [`NodalDiameter::all`] and family.
+    ///
+    /// # Errors
+    /// [`ModesError::NotCyclic`] unless this is a ring with contacts on all sectors or none, [`ModesError::Parameter`] and
+    /// [`ModesError::NoConvergence`].
+    pub fn tuned_modes(&self, stuck: bool) -> Result<Vec<TunedMode>, ModesError> {
+        let disk = self.tuned();
+        let chain = disk.chain()?;
+        if !disk.is_cyclic()? {
+            return Err(ModesError::NotCyclic);
+        }
+        let stiffness = chain.stiffness_with(&vec![stuck; chain.sliders()]);
+        let damping = chain.total_damping();
+        let mut modes = Vec::new();
+        for wave in NodalDiameter::all(disk.sectors) {
+            let mut found = waves(&disk, &chain, [&stiffness, &damping], wave)?;
+            found.sort_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency));
+            modes.extend(found.into_iter().enumerate().map(|(family, mode)| TunedMode { wave, family, mode }));
+        }
+        Ok(modes)
+    }
+
+    /// Aerodynamic damping of each wave at the reference frequency, the S-curve, in order of [`NodalDiameter::all`].
+    ///
+    /// # Errors
+    /// As [`BladedDisk::influence_coefficients`].
+    pub fn aerodynamic_damping(&self) -> Result<Vec<(NodalDiameter, f64)>, ParameterError> {
+        let l = self.influence_coefficients()?;
+        let damping = |wave| if self.aerodynamics.is_some() { l.damping(wave) } else { 0.0 };
+        Ok(NodalDiameter::all(self.sectors).map(|wave| (wave, damping(wave))).collect())
+    }
+}
+
+fn waves(
+    disk: &BladedDisk,
+    chain: &OscillatorChain,
+    [stiffness, damping]: [&DMatrix<f64>; 2],
+    wave: NodalDiameter,
+) -> Result<Vec<LinearMode>, ModesError> {
+    let [k, d] = [stiffness, damping].map(|matrix| disk.wave_block(matrix, wave));
+    let size = disk.oscillators_per_sector();
+    let mass = |a: usize| chain.mass()[a * disk.sectors];
+    let roots = if size == 1 {
+        quadratic(d[(0, 0)] / mass(0), k[(0, 0)] / mass(0)).to_vec()
+    } else {
+        let companion = DMatrix::from_fn(2 * size, 2 * size, |row, column| match (row < size, column < size) {
+            (true, _) => Complex::from(f64::from(u8::from(column == row + size))),
+            (false, true) => -k[(row - size, column)] / mass(row - size),
+            (false, false) => -d[(row - size, column - size)] / mass(row - size),
+        });
+        eigenvalues(companion)?
+    };
+    let mode = |s: &Complex<f64>| LinearMode { angular_frequency: s.im, damping: -2.0 * s.re };
+    Ok(roots.iter().filter(|s| s.im > 0.0).map(mode).collect())
+}
+
+/// Roots of `s^2 + d s + k`: the larger from the formula without cancellation, the other from their product.
+fn quadratic(d: Complex<f64>, k: Complex<f64>) -> [Complex<f64>; 2] {
+    let root = (d * d - 4.0 * k).sqrt();
+    let sum = if (d.conj() * root).re >= 0.0 { d + root } else { d - root };
+    if sum.norm() == 0.0 {
+        return [Complex::ZERO; 2];
+    }
+    [-0.5 * sum, -2.0 * k / sum]
+}
+
+fn eigenvalues(matrix: DMatrix<Complex<f64>>) -> Result<Vec<Complex<f64>>, ModesError> {
+    let size = matrix.nrows();
+    let failed = ModesError::NoConvergence { size };
+    let schur = nalgebra::linalg::Schur::try_new(matrix, f64::EPSILON, 10_000).ok_or(failed.clone())?;
+    Ok(schur.eigenvalues().ok_or(failed)?.iter().copied().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bladed_disk::DiskSegments;
+    use super::*;
+
+    #[test]
+    fn a_heavy_stiff_disk_leaves_the_blades_alone() {
+        // Segments of stiffness 1e8: blades on rigid ground, frequency 1 for every wave.
+        let disk =
+            BladedDisk { segments: Some(DiskSegments { mass: 1.0, stiffness: 1e8 }), ..BladedDisk::ring(6, 0.3) };
+        let modes = disk.tuned_modes(true).unwrap();
+        assert_eq!(modes.len(), 12);
+        for mode in modes.iter().filter(|mode| mode.family == 0) {
+            // Compliance of the segment: relative 1/(2 * 1e8).
+            assert!((mode.mode.angular_frequency - 1.0).abs() < 2e-8, "{mode:?}");
+        }
+    }
+
+    #[test]
+    fn chains_and_single_contacts_have_no_waves() {
+        use super::super::{ContactPlace, FrictionContacts, Topology};
+        let chain = BladedDisk { topology: Topology::Chain, ..BladedDisk::ring(4, 0.1) };
+        assert_eq!(chain.tuned_modes(true).unwrap_err(), ModesError::NotCyclic);
+        let one = FrictionContacts { sectors: Some(vec![1]), ..FrictionContacts::everywhere(ContactPlace::Foot, 0.3) };
+        let ring = BladedDisk { friction: vec![one], ..BladedDisk::ring(4, 0.1) };
+        assert_eq!(ring.tuned_modes(true).unwrap_err(), ModesError::NotCyclic);
+    }
+}
