@@ -9,7 +9,7 @@ use stickslip::film::{FilmReport, FilmSettings, FrameSource, SourceError, Video,
 use stickslip::model::TwoMassRig;
 use stickslip::render::{DrawList, RendererChoice};
 use stickslip::scene::{Case, Initial, Scene};
-use stickslip::stage::{Motion, Stage};
+use stickslip::stage::{Beside, Motion, Stage};
 use stickslip::store::{Existing, Origin, OutputDir};
 
 const FRAMES: u64 = 24;
@@ -51,7 +51,7 @@ fn benchmark(criterion: &mut Criterion) {
     group.sample_size(10);
     group.throughput(Throughput::Elements(case.frame_count()));
     group.bench_function("simulate (whole film)", |b| b.iter(|| black_box(simulate(&case))));
-    let source = Source(Stage::new(case.clone(), Motion::new(&simulate(&case)).unwrap()));
+    let source = Source(Stage::new(case.clone(), Motion::new(&simulate(&case)).unwrap(), Beside::default()));
     group.throughput(Throughput::Elements(FRAMES));
     group.bench_function("draw and encode (1280x720)", |b| b.iter(|| black_box(film(&source))));
     group.finish();

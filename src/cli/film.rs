@@ -2,10 +2,11 @@
 
 use super::progress::Progress;
 use crate::dynamics::Trajectory;
+use crate::engine::{BodyPose, BodyRole, Recording, RigGeometry};
 use crate::film::{self, FilmReport, FilmSettings, FrameSource, SourceError, Video};
 use crate::render::{AdapterInfo, DrawList, RendererChoice};
 use crate::scene::Case;
-use crate::stage::{Motion, Stage};
+use crate::stage::{Beside, Body, Motion, Stage};
 use crate::store::OutputDir;
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
@@ -87,16 +88,57 @@ pub struct Made {
     pub adapter: AdapterInfo,
 }
 
+/// The motion to film, and the exact one beside it.
+pub struct Shown {
+    motion: Motion,
+    reference: Option<Motion>,
+}
+
+const NOT_THE_RIG: &str = "the motion is not one of two masses and one slider";
+
+impl Shown {
+    /// A motion without bodies.
+    pub fn of(trajectory: &Trajectory) -> anyhow::Result<Self> {
+        Ok(Self { motion: Motion::new(trajectory).context(NOT_THE_RIG)?, reference: None })
+    }
+
+    /// The engine's motion with its own bodies.
+    pub fn of_engine(recording: &Recording) -> anyhow::Result<Self> {
+        let bodies: Option<Vec<_>> = recording.poses.iter().map(|poses| carriages(poses)).collect();
+        let motion = Motion::new(&recording.trajectory).zip(bodies).and_then(|(motion, b)| motion.with_bodies(&b));
+        Ok(Self { motion: motion.context(NOT_THE_RIG)?, reference: None })
+    }
+
+    pub fn beside(self, exact: &Trajectory) -> Self {
+        Self { reference: Motion::new(exact), ..self }
+    }
+}
+
+/// The two carriages of the engine's world, seen from their rest poses.
+fn carriages(poses: &[BodyPose]) -> Option<[Body; 2]> {
+    let geometry = RigGeometry::default();
+    let carriage = |index: usize| {
+        let pose = poses.iter().find(|pose| pose.role == BodyRole::Carriage(index))?;
+        let rest = geometry.rest_position(index);
+        Some(Body {
+            displacement: std::array::from_fn(|axis| pose.translation[axis] - rest[axis]),
+            rotation: pose.rotation,
+            half_extents: pose.half_extents,
+        })
+    };
+    Some([carriage(0)?, carriage(1)?])
+}
+
 /// Draws the frames that are missing and makes the film.
 pub fn make(
     case: &Case,
-    trajectory: &Trajectory,
+    shown: Shown,
     args: &DrawArgs,
     output: &OutputDir,
     progress: &mut Progress,
 ) -> anyhow::Result<Made> {
-    let motion = Motion::new(trajectory).context("the motion is not one of two masses and one slider")?;
-    let source = Source(Stage::new(case.clone(), motion));
+    let map = super::damping_map::of(case, progress)?;
+    let source = Source(Stage::new(case.clone(), shown.motion, Beside { exact: shown.reference, map }));
     args.check(source.count())?;
     let mut renderer = crate::render::open(args.renderer.choice())?;
     let adapter = renderer.info().clone();

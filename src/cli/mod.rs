@@ -4,6 +4,7 @@ mod analysis;
 mod branch;
 mod case_args;
 mod common;
+mod damping_map;
 mod diagram;
 mod film;
 mod generate;

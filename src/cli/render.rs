@@ -2,12 +2,11 @@
 
 use super::case_args::SceneArgs;
 use super::common::{Common, Document, print};
-use super::film::{self, DrawArgs};
+use super::film::{self, DrawArgs, Shown};
 use super::progress::Progress;
 use super::run::default_directory;
 use super::trajectory_table::from_table;
 use super::{Verdict, motions};
-use crate::dynamics::Trajectory;
 use crate::scene::{Case, Film};
 use crate::store::{Existing, Origin, OutputDir, read_table, read_whole, sha256_hex};
 use anyhow::{Context, ensure};
@@ -45,7 +44,7 @@ pub struct RenderArgs {
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
     let mut progress = Progress::new(args.common.quiet);
-    let (case, trajectory) = match &args.trajectory {
+    let (case, shown) = match &args.trajectory {
         Some(path) => args.stored(path)?,
         None => args.computed()?,
     };
@@ -64,7 +63,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         json!({ "case": case, "with": solver, "trajectory": args.trajectory, "trajectory_sha256": stored });
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
-    let made = film::make(&case, &trajectory, &args.draw, &output, &mut progress)?;
+    let made = film::make(&case, shown, &args.draw, &output, &mut progress)?;
     if args.common.json {
         let document =
             Document::new("render", parameters).with("frames", made.frames_json()).with("files", json!(output.files()));
@@ -76,17 +75,17 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
 }
 
 impl RenderArgs {
-    fn computed(&self) -> anyhow::Result<(Case, Trajectory)> {
+    fn computed(&self) -> anyhow::Result<(Case, Shown)> {
         let case = self.input.case()?;
         let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));
-        let trajectory = match self.solver {
-            Solver::Exact => motions::exactly(&case, &start, sampling)?,
-            Solver::Rapier => motions::in_engine(&case, &start, sampling)?.trajectory,
+        let shown = match self.solver {
+            Solver::Exact => Shown::of(&motions::exactly(&case, &start, sampling)?)?,
+            Solver::Rapier => Shown::of_engine(&motions::in_engine(&case, &start, sampling)?)?,
         };
-        Ok((case, trajectory))
+        Ok((case, shown))
     }
 
-    fn stored(&self, path: &Path) -> anyhow::Result<(Case, Trajectory)> {
+    fn stored(&self, path: &Path) -> anyhow::Result<(Case, Shown)> {
         let fault = || format!("trajectory {}", path.display());
         let (case, trajectory) = from_table(&read_table(path)?).with_context(fault)?;
         ensure!(
@@ -104,6 +103,6 @@ impl RenderArgs {
         film.fps = self.input.film.fps.unwrap_or(film.fps);
         film.speed = self.input.film.speed.unwrap_or(film.speed);
         let case = case.refilmed(film, &path.display().to_string())?;
-        Ok((case, trajectory))
+        Ok((case, Shown::of(&trajectory)?))
     }
 }

@@ -2,7 +2,7 @@
 
 use super::case_args::SceneArgs;
 use super::common::{Common, Document, print};
-use super::film::{self, DrawArgs, Made};
+use super::film::{self, DrawArgs, Made, Shown};
 use super::progress::Progress;
 use super::trajectory_table::{Provenance, to_table};
 use super::{Verdict, motions};
@@ -59,7 +59,8 @@ pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
     write_trajectory(&output, "engine.csv", &recording.trajectory, &case, &solver, &parameters)?;
     write_trajectory(&output, "exact.csv", &exact, &case, "exact", &parameters)?;
 
-    let made = film::make(&case, &recording.trajectory, &args.draw, &output, &mut progress)?;
+    let shown = Shown::of_engine(&recording)?.beside(&exact);
+    let made = film::make(&case, shown, &args.draw, &output, &mut progress)?;
     let document = document(parameters, &settings, &recording, &agreement, &made, &output)?;
     let text = document.text()?;
     output.write("run.json", "", |writer| writeln!(writer, "{text}"))?;

@@ -5,7 +5,7 @@
 use super::RenderError;
 use super::draw_list::{Camera, DrawList, Light};
 use super::portable::tan_half;
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 
 /// Texels along each side of the shadow map.
 pub(crate) const SHADOW_SIZE: u32 = 1024;
@@ -42,6 +42,17 @@ pub(crate) fn camera_matrix(camera: &Camera, [width, height]: [u32; 2]) -> Resul
     let y = row(up) * scale + distance * centre[1];
     let z = Vec4::W * (NEAR * forward.length());
     Ok(Mat4::from_cols(x, y, z, distance).transpose())
+}
+
+impl Camera {
+    /// Overlay pixel at which a point of the world is seen in a picture of the given size; `None` behind the eye, and for cameras
+    /// that cannot be drawn with.
+    #[must_use]
+    pub fn project(&self, point: Vec3, size: [u32; 2]) -> Option<Vec2> {
+        let clip = camera_matrix(self, size).ok()? * point.extend(1.0);
+        let picture = Vec2::new(size[0] as f32, size[1] as f32);
+        (clip.w > clip.z).then(|| Vec2::new(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w) * picture)
+    }
 }
 
 /// World to shadow map: texels along `u` and `v`, `height` towards the light in world units, all relative to the shadow sphere's centre.
@@ -118,6 +129,14 @@ mod tests {
         let shifted = Camera { viewport: [0.0, 0.0, 0.5, 0.5], ..camera() };
         assert!((seen(&shifted, Vec3::ZERO).truncate() - glam::Vec2::new(-0.5, 0.5)).length() < 1e-6);
         assert!((seen(&shifted, Vec3::Y * 4.0).y - 1.0).abs() < 1e-6);
+    }
+
+    /// At 90 degrees a point one unit aside at distance 4 is seen at an eighth of the height from the middle.
+    #[test]
+    fn points_are_projected_to_overlay_pixels() {
+        let place = camera().project(Vec3::new(1.0, 1.0, 0.0), [200, 100]).unwrap();
+        assert!((place - Vec2::new(112.5, 37.5)).length() < 1e-4, "{place}");
+        assert_eq!(camera().project(Vec3::new(0.0, 0.0, 5.0), [200, 100]), None);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A scene made ready: validated, non-dimensional, with the units to go back.
 
 use super::description::{Engine, Film, Initial, MotionKind, Scene};
+use super::direction::{Direction, Panel};
 use super::disk::DiskCase;
 use super::error::{Fault, Place, SceneError};
 use crate::model::{ParameterError, PrescribedMotion, Range, RigParameters, Scales};
@@ -34,6 +35,8 @@ pub struct Case {
     pub horizon: f64,
     pub motion: MotionKind,
     pub film: Film,
+    #[serde(default)]
+    pub direction: Direction,
 }
 
 /// The path of the field at fault, and the fault.
@@ -86,6 +89,7 @@ impl Scene {
             horizon,
             motion: self.check.motion,
             film: film_settings(self.film, &scales)?,
+            direction: self.checked_direction()?,
         };
         case.check_lengths()?;
         Ok(case)
@@ -119,6 +123,12 @@ impl Scene {
                 Ok(Initial::State { state: std::array::from_fn(|i| state[i] / units[i]) })
             }
         }
+    }
+
+    fn checked_direction(&self) -> Result<Direction, Refusal> {
+        let panels = self.direction.panels().len() as u64;
+        whole("direction.panels", panels, 0, Panel::ALL.len() as u64, "a list of at most 6 panels")?;
+        Ok(self.direction.clone())
     }
 
     fn prescribed_motion(&self, scales: &Scales) -> Result<Option<PrescribedMotion>, Refusal> {

@@ -1,6 +1,7 @@
 //! What a scene file says, as data. Where the rig is given in SI units (`[rig_si]`), every other length, velocity, force and
 //! time of the file is in SI too; where it is given non-dimensionally (`[rig]`), all are non-dimensional.
 
+use super::direction::Direction;
 use super::disk::DiskStart;
 use crate::model::{BladedDisk, DimensionalRig, PrescribedMotion, RigParameters};
 use schemars::JsonSchema;
@@ -40,6 +41,8 @@ pub struct Scene {
     pub check: Check,
     #[serde(default)]
     pub film: Film,
+    #[serde(default)]
+    pub direction: Direction,
 }
 
 /// How the motion starts.
@@ -161,6 +164,17 @@ pub struct Check {
     pub motion: MotionKind,
 }
 
+/// Colours of the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Theme {
+    /// For screens.
+    #[default]
+    Dark,
+    /// For paper and bright rooms.
+    Light,
+}
+
 /// How the motion is filmed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -173,10 +187,11 @@ pub struct Film {
     pub fps: u32,
     /// Time of the motion that passes in one second of film.
     pub speed: f64,
+    pub theme: Theme,
 }
 
 impl Default for Film {
     fn default() -> Self {
-        Self { width: 1280, height: 720, fps: 30, speed: 8.0 }
+        Self { width: 1280, height: 720, fps: 30, speed: 8.0, theme: Theme::default() }
     }
 }

@@ -2,12 +2,14 @@
 
 mod case;
 mod description;
+mod direction;
 mod disk;
 mod error;
 mod load;
 
 pub use case::Case;
-pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation};
+pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation, Theme};
+pub use direction::{Direction, Panel};
 pub use disk::{DiskCase, DiskStart, WaveStart};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;

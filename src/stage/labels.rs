@@ -1,7 +1,7 @@
 //! Words over the scene: headline, parameters, time, contact state, energy.
 
 use super::motion::Instant;
-use super::{contact_colour, palette};
+use super::palette::Palette;
 use crate::model::Scales;
 use crate::render::{Anchor, Colour, OverlayItem, Rectangle, text_width};
 use crate::scene::Case;
@@ -12,11 +12,11 @@ fn text(position: Vec2, size: f32, colour: Colour, bold: bool, text: String) -> 
 }
 
 /// Headline and caption, top left; the caption breaks into lines that fit `width`.
-pub fn draw_headline(case: &Case, origin: Vec2, width: f32, scale: f32, out: &mut Vec<OverlayItem>) {
-    out.push(text(origin + Vec2::new(0.0, 26.0) * scale, 28.0 * scale, palette::TEXT, true, case.title.clone()));
+pub fn draw_headline(case: &Case, palette: &Palette, origin: Vec2, width: f32, scale: f32, out: &mut Vec<OverlayItem>) {
+    out.push(text(origin + Vec2::new(0.0, 26.0) * scale, 28.0 * scale, palette.text, true, case.title.clone()));
     for (row, line) in wrap(&case.caption, 15.0 * scale, width).into_iter().enumerate() {
         let place = origin + Vec2::new(0.0, 52.0 + 20.0 * row as f32) * scale;
-        out.push(text(place, 15.0 * scale, palette::FAINT_TEXT, false, line));
+        out.push(text(place, 15.0 * scale, palette.faint_text, false, line));
     }
 }
 
@@ -34,9 +34,16 @@ fn wrap(words: &str, size: f32, width: f32) -> Vec<String> {
     })
 }
 
-/// Contact state, time and parameters, bottom left.
-pub fn draw_status(case: &Case, now: &Instant, origin: Vec2, scale: f32, out: &mut Vec<OverlayItem>) {
-    let colour = contact_colour(now.contact);
+/// Contact state and time at the left, parameters at the right end of the line below the scene.
+pub fn draw_status(
+    case: &Case,
+    palette: &Palette,
+    now: &Instant,
+    (origin, right): (Vec2, f32),
+    scale: f32,
+    out: &mut Vec<OverlayItem>,
+) {
+    let colour = palette.contact(now.contact);
     let word = if now.contact.is_stick() { "STICK" } else { "SLIP" };
     let chip = Rectangle { min: origin, max: origin + Vec2::new(78.0, 28.0) * scale };
     out.push(OverlayItem::Box { area: chip, corner_radius: 14.0 * scale, fill: colour, stroke: None });
@@ -44,7 +51,7 @@ pub fn draw_status(case: &Case, now: &Instant, origin: Vec2, scale: f32, out: &m
         position: origin + Vec2::new(39.0, 19.5) * scale,
         anchor: Anchor::Centre,
         size: 15.0 * scale,
-        colour: palette::PANEL,
+        colour: palette.chip_text,
         bold: true,
         text: word.to_owned(),
     });
@@ -53,7 +60,7 @@ pub fn draw_status(case: &Case, now: &Instant, origin: Vec2, scale: f32, out: &m
     } else {
         format!("t = {:.3} s", now.time * case.scales.time)
     };
-    out.push(text(origin + Vec2::new(94.0, 21.0) * scale, 20.0 * scale, palette::TEXT, true, time));
+    out.push(text(origin + Vec2::new(94.0, 21.0) * scale, 20.0 * scale, palette.text, true, time));
     let p = case.parameters;
     let parameters = match case.prescribed {
         None => {
@@ -61,7 +68,14 @@ pub fn draw_status(case: &Case, now: &Instant, origin: Vec2, scale: f32, out: &m
         }
         Some(m) => format!("x₁ = {} sin({} t)", short(m.amplitude), short(m.angular_frequency)),
     };
-    out.push(text(origin + Vec2::new(0.0, 50.0) * scale, 14.0 * scale, palette::FAINT_TEXT, false, parameters));
+    out.push(OverlayItem::Text {
+        position: Vec2::new(right - 14.0 * scale, origin.y + 20.0 * scale),
+        anchor: Anchor::Right,
+        size: 14.0 * scale,
+        colour: palette.faint_text,
+        bold: false,
+        text: parameters,
+    });
 }
 
 /// At most four significant digits after the point, without trailing zeros.

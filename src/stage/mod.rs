@@ -2,34 +2,36 @@
 //!
 //! A frame is a pure function of its index: it shows the motion at `index * speed / fps`.
 
+mod envelope;
+mod ghost;
 mod labels;
+mod layout;
 mod motion;
 mod palette;
 mod panels;
 mod plot;
 mod rig;
 
-pub use motion::{Instant, Motion};
+pub use motion::{Body, Instant, Motion};
+pub use panels::DampingMap;
 pub use plot::{Axis, Plot};
 
-use crate::model::ContactState;
-use crate::render::{Background, Camera, Colour, DrawList, Light, Rectangle};
+use crate::render::{Anchor, Camera, DrawList, OverlayItem};
 use crate::scene::Case;
+use ghost::Ghost;
 use glam::{Vec2, Vec3};
+use layout::Layout;
+use palette::Palette;
 use panels::Panels;
-use rig::{Extremes, RigModel};
+use rig::RigModel;
 
-/// Parts of the picture: the scene to the left of this fraction of its width, the plots to the right.
-const SCENE_WIDTH: f32 = 0.655;
-/// Free border around panels and text, pixels of a 720 lines high picture.
-const BORDER: f32 = 20.0;
-
-/// Colour of a contact state, the same wherever it is shown.
-fn contact_colour(contact: ContactState) -> Colour {
-    match contact {
-        ContactState::Stick => palette::STICK,
-        ContactState::Slip(_) => palette::SLIP,
-    }
+/// What a film may show beside its motion.
+#[derive(Debug, Clone, Default)]
+pub struct Beside {
+    /// The exact motion from the same start.
+    pub exact: Option<Motion>,
+    /// The diagram the scene is a part of.
+    pub map: Option<DampingMap>,
 }
 
 /// One film: a case and its motion.
@@ -37,30 +39,23 @@ fn contact_colour(contact: ContactState) -> Colour {
 pub struct Stage {
     case: Case,
     motion: Motion,
+    palette: Palette,
+    layout: Layout,
     rig: RigModel,
+    ghost: Option<Ghost>,
     panels: Panels,
 }
 
 impl Stage {
+    /// With what stands beside the motion, where there is something.
     #[must_use]
-    pub fn new(case: Case, motion: Motion) -> Self {
-        let either = |quantity: fn(&Instant) -> [f64; 2]| {
-            motion.largest(|i| quantity(i)[0]).max(motion.largest(|i| quantity(i)[1]))
-        };
-        let largest = Extremes {
-            displacement: either(|i| i.positions),
-            approach: motion.largest(|i| (i.positions[0] - i.positions[1]).max(0.0)),
-            speed: either(|i| i.velocities),
-        };
-        let (width, height) = (case.film.width as f32, case.film.height as f32);
-        let scale = height / 720.0;
-        let column = Rectangle {
-            min: Vec2::new(width * SCENE_WIDTH + 0.5 * BORDER * scale, BORDER * scale),
-            max: Vec2::new(width - BORDER * scale, height - BORDER * scale),
-        };
-        let panels = Panels::new(&motion, case.scales, column, scale);
-        let rig = RigModel::new(&case.parameters, largest);
-        Self { case, motion, rig, panels }
+    pub fn new(case: Case, motion: Motion, beside: Beside) -> Self {
+        let palette = Palette::of(case.film.theme);
+        let layout = Layout::new([case.film.width, case.film.height], case.direction.panels().len());
+        let panels = Panels::new(&case, &motion, beside.map.as_ref(), &layout.panels, layout.scale, palette);
+        let rig = RigModel::new(&case.parameters, &motion, palette, case.prescribed.is_some());
+        let ghost = beside.exact.and_then(|exact| Ghost::new(&motion, exact, rig.magnification()));
+        Self { case, motion, palette, layout, rig, ghost, panels }
     }
 
     /// Frames that show the motion from its start to its end; fewer than the scene asks for where the motion diverged.
@@ -81,43 +76,66 @@ impl Stage {
     pub fn frame(&self, index: u64) -> DrawList {
         let now = self.motion.at(self.time(index));
         let film = self.case.film;
-        let (width, height) = (film.width as f32, film.height as f32);
-        let scale = height / 720.0;
-        let border = BORDER * scale;
+        let size = [film.width, film.height];
+        let camera = self.camera();
         let mut overlay = Vec::new();
-        labels::draw_headline(&self.case, Vec2::splat(border), width * SCENE_WIDTH - 2.0 * border, scale, &mut overlay);
-        labels::draw_status(&self.case, &now, Vec2::new(border, height - border - 56.0 * scale), scale, &mut overlay);
+        self.draw_words(&now, &camera, &mut overlay);
         self.panels.draw(&self.motion, &now, &mut overlay);
         DrawList {
-            size: [film.width, film.height],
-            background: Background { top: palette::BACKDROP_TOP, bottom: palette::BACKDROP_BOTTOM },
-            camera: camera(),
-            light: light(),
-            objects: self.rig.objects(&now),
+            size,
+            background: self.palette.backdrop,
+            camera,
+            light: self.palette.light(),
+            objects: self.rig.objects(&self.motion, &now),
             overlay,
         }
     }
-}
 
-/// From the front, a little above and to the side of the Jenkins element.
-fn camera() -> Camera {
-    Camera {
-        eye: Vec3::new(-1.4, 3.0, 8.6),
-        target: Vec3::new(-0.2, 0.45, 0.0),
-        up: Vec3::Y,
-        vertical_field_of_view: 0.62,
-        viewport: [0.0, 0.05, SCENE_WIDTH, 0.95],
+    /// Everything written over the scene.
+    fn draw_words(&self, now: &Instant, camera: &Camera, out: &mut Vec<OverlayItem>) {
+        let (scale, palette) = (self.layout.scale, &self.palette);
+        let size = [self.case.film.width, self.case.film.height];
+        let scene = self.layout.scene;
+        labels::draw_headline(&self.case, palette, scene.min, scene.max.x - scene.min.x, scale, out);
+        let status = self.layout.status();
+        labels::draw_status(&self.case, palette, now, (status, scene.max.x), scale, out);
+        let anchors = self.rig.anchors(now);
+        let mut word = |place: Vec3, size_px: f32, colour, text: &str, shift: Vec2| {
+            if let Some(position) = camera.project(place, size) {
+                out.push(OverlayItem::Text {
+                    position: position + shift * scale,
+                    anchor: Anchor::Centre,
+                    size: size_px * scale,
+                    colour,
+                    bold: true,
+                    text: text.to_owned(),
+                });
+            }
+        };
+        for (place, name) in anchors.masses.into_iter().zip(["1", "2"]) {
+            word(place, 22.0, palette::CARRIAGE_TEXT, name, Vec2::new(0.0, 8.0));
+        }
+        word(anchors.normal_force, 14.0, palette.text, "N", Vec2::new(-16.0, 10.0));
+        word(anchors.pad, 11.0, palette::LABEL_ON_METAL, "friction pad", Vec2::ZERO);
+        let above_status = Vec2::new(0.0, 14.0) * scale;
+        if self.case.prescribed.is_none() {
+            out.push(OverlayItem::Text {
+                position: Vec2::new(scene.max.x - 14.0 * scale, status.y) - above_status,
+                anchor: Anchor::Right,
+                size: 13.0 * scale,
+                colour: palette.excitation,
+                bold: false,
+                text: "arrows: power fed in by self-excitation".to_owned(),
+            });
+        }
+        if let Some(ghost) = &self.ghost {
+            let place = status - above_status;
+            ghost.draw(&self.rig, camera, size, now, (palette, place, scale), out);
+        }
     }
-}
 
-fn light() -> Light {
-    Light {
-        direction: Vec3::new(-0.45, 1.0, 0.6),
-        colour: Colour::rgb(0xfff1de),
-        intensity: 2.6,
-        sky: Colour::rgb(0x9db4cc),
-        ground: Colour::rgb(0x4a4640),
-        shadow_centre: Vec3::new(-0.2, 0.3, 0.0),
-        shadow_radius: 3.9,
+    /// From the front, a little above and to the side of the Jenkins element.
+    fn camera(&self) -> Camera {
+        self.layout.camera(Vec3::new(-0.1, 0.52, 0.12), [-0.27, 0.40], 10.3, [3.75, 1.45])
     }
 }

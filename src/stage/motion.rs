@@ -2,7 +2,25 @@
 //! (fourth order), velocities and slider force linearly.
 
 use crate::dynamics::Trajectory;
-use crate::model::ContactState;
+use crate::model::{ContactState, EnergyLedger, Works};
+
+/// How a carriage stands, seen from its rest pose, and the cuboid that it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// Along the rail, up, and across.
+    pub displacement: [f64; 3],
+    /// Unit quaternion x, y, z, w.
+    pub rotation: [f64; 4],
+    pub half_extents: [f64; 3],
+}
+
+impl Body {
+    /// A carriage that follows its rail perfectly: what a solver without bodies moves.
+    #[must_use]
+    pub fn on_the_rail(position: f64) -> Self {
+        Self { displacement: [position, 0.0, 0.0], rotation: [0.0, 0.0, 0.0, 1.0], half_extents: [0.4; 3] }
+    }
+}
 
 /// What is drawn of one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,6 +30,9 @@ pub struct Instant {
     pub velocities: [f64; 2],
     pub slider_force: f64,
     pub contact: ContactState,
+    pub ledger: EnergyLedger,
+    /// The carriages as they are drawn.
+    pub bodies: [Body; 2],
 }
 
 /// Samples of a two-mass motion.
@@ -28,16 +49,36 @@ impl Motion {
             .samples
             .iter()
             .map(|sample| {
+                let positions: [f64; 2] = sample.state.positions.as_slice().try_into().ok()?;
                 Some(Instant {
                     time: sample.time,
-                    positions: sample.state.positions.as_slice().try_into().ok()?,
+                    positions,
                     velocities: sample.state.velocities.as_slice().try_into().ok()?,
                     slider_force: *sample.state.slider_forces.first()?,
                     contact: *sample.contacts.first()?,
+                    ledger: sample.ledger,
+                    bodies: positions.map(Body::on_the_rail),
                 })
             })
             .collect::<Option<Vec<_>>>()?;
         (!instants.is_empty()).then_some(Self { instants })
+    }
+
+    /// The same motion with the carriages drawn as `bodies` say, one pair per sample: a physics engine's own poses. `None` for
+    /// another number of pairs.
+    #[must_use]
+    pub fn with_bodies(mut self, bodies: &[[Body; 2]]) -> Option<Self> {
+        if bodies.len() != self.instants.len() {
+            return None;
+        }
+        self.instants.iter_mut().zip(bodies).for_each(|(instant, &bodies)| instant.bodies = bodies);
+        Some(self)
+    }
+
+    /// All samples in order of time.
+    #[must_use]
+    pub fn instants(&self) -> &[Instant] {
+        &self.instants
     }
 
     #[must_use]
@@ -78,10 +119,19 @@ fn between(left: &Instant, right: &Instant, time: f64) -> Instant {
     let h = right.time - left.time;
     let s = (time - left.time) / h;
     let mix = |a: f64, b: f64| a + s * (b - a);
-    let hermite = |i: usize| {
-        let (x0, x1, v0, v1) = (left.positions[i], right.positions[i], left.velocities[i] * h, right.velocities[i] * h);
+    let along = |i: usize, x0: f64, x1: f64| {
+        let (v0, v1) = (left.velocities[i] * h, right.velocities[i] * h);
         let r = 1.0 - s;
         r * r * ((1.0 + 2.0 * s) * x0 + s * v0) + s * s * ((3.0 - 2.0 * s) * x1 - r * v1)
+    };
+    let hermite = |i: usize| along(i, left.positions[i], right.positions[i]);
+    let body = |i: usize| {
+        let (a, b) = (left.bodies[i], right.bodies[i]);
+        let x = along(i, a.displacement[0], b.displacement[0]);
+        let [_, y, z] = std::array::from_fn(|axis| mix(a.displacement[axis], b.displacement[axis]));
+        // Within a step rotations hardly change: their components may be mixed, and are made a unit again where they are drawn.
+        let rotation = std::array::from_fn(|k| mix(a.rotation[k], b.rotation[k]));
+        Body { displacement: [x, y, z], rotation, half_extents: a.half_extents }
     };
     Instant {
         time,
@@ -89,6 +139,24 @@ fn between(left: &Instant, right: &Instant, time: f64) -> Instant {
         velocities: std::array::from_fn(|i| mix(left.velocities[i], right.velocities[i])),
         slider_force: mix(left.slider_force, right.slider_force),
         contact: left.contact,
+        ledger: ledger_between(&left.ledger, &right.ledger, s),
+        bodies: [body(0), body(1)],
+    }
+}
+
+fn ledger_between(left: &EnergyLedger, right: &EnergyLedger, s: f64) -> EnergyLedger {
+    let mix = |a: f64, b: f64| a + s * (b - a);
+    let (a, b) = (&left.works, &right.works);
+    EnergyLedger {
+        stored: mix(left.stored, right.stored),
+        stored_at_start: left.stored_at_start,
+        works: Works {
+            damping: mix(a.damping, b.damping),
+            self_excitation: mix(a.self_excitation, b.self_excitation),
+            circulatory: mix(a.circulatory, b.circulatory),
+            friction: mix(a.friction, b.friction),
+            drive: mix(a.drive, b.drive),
+        },
     }
 }
 
@@ -127,6 +195,20 @@ mod tests {
         assert!(error(0.1) < 0.1_f64.powi(4) / 384.0 && error(0.1) > 0.0);
         let order = (error(0.2) / error(0.1)).log2();
         assert!((3.5..4.5).contains(&order), "order {order}");
+    }
+
+    #[test]
+    fn bodies_are_drawn_where_their_owner_says_and_must_be_as_many_as_the_samples() {
+        let motion = circle(0.1, 11);
+        let lifted: Vec<[Body; 2]> = motion
+            .instants()
+            .iter()
+            .map(|i| i.positions.map(|x| Body { displacement: [x, 0.25, 0.0], ..Body::on_the_rail(x) }))
+            .collect();
+        assert!(motion.clone().with_bodies(&lifted[1..]).is_none());
+        let motion = motion.with_bodies(&lifted).unwrap();
+        let now = motion.at(0.33);
+        assert_eq!(now.bodies[0].displacement, [now.positions[0], 0.25, 0.0]);
     }
 
     #[test]

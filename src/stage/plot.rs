@@ -1,8 +1,12 @@
 //! A framed plot with ticks: maps data to overlay pixels.
 
-use super::palette;
+use super::palette::Palette;
 use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke, text_width};
 use glam::Vec2;
+
+/// Steps from tick to tick along an axis, at most; and along one of a small plot.
+const MOST_TICKS: f64 = 8.0;
+const FEW_TICKS: f64 = 4.5;
 
 /// A range of values with round tick marks.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,12 +18,12 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Range that includes `min..=max` with a margin, ticks at round numbers, about five of them.
+    /// Range that includes `min..=max` with a margin, ticks at round numbers.
     #[must_use]
     pub fn covering(min: f64, max: f64) -> Self {
         let span = (max - min).max(1e-12);
         let margin = 0.06 * span;
-        Self { min: min - margin, max: max + margin, tick: round_tick(span / 4.0) }
+        Self { min: min - margin, max: max + margin, tick: round_tick(span / MOST_TICKS) }
     }
 
     /// The range `-limit..=limit` with a margin.
@@ -31,7 +35,13 @@ impl Axis {
     /// Exactly `min..=max`.
     #[must_use]
     pub fn exactly(min: f64, max: f64) -> Self {
-        Self { min, max, tick: round_tick((max - min) / 4.0) }
+        Self { min, max, tick: round_tick((max - min) / MOST_TICKS) }
+    }
+
+    /// The same range with fewer ticks, for small plots.
+    #[must_use]
+    pub fn sparse(self) -> Self {
+        Self { tick: round_tick((self.max - self.min) / FEW_TICKS), ..self }
     }
 
     fn ticks(self) -> impl Iterator<Item = f64> {
@@ -49,10 +59,14 @@ impl Axis {
     }
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is at most `wanted`.
+/// The smallest of 1, 2, 5 times a power of ten that is at least `wanted`.
 fn round_tick(wanted: f64) -> f64 {
     let decade = 10f64.powf(wanted.log10().floor());
-    [5.0, 2.0, 1.0].into_iter().map(|m| m * decade).find(|tick| *tick <= wanted * (1.0 + 1e-12)).unwrap_or(decade)
+    [1.0, 2.0, 5.0]
+        .into_iter()
+        .map(|m| m * decade)
+        .find(|tick| *tick >= wanted * (1.0 - 1e-12))
+        .unwrap_or(10.0 * decade)
 }
 
 /// A plot: where it is, and what its axes mean.
@@ -62,7 +76,8 @@ pub struct Plot {
     pub panel: Rectangle,
     /// Pixels per pixel of a 720 lines high picture.
     pub scale: f32,
-    pub title: &'static str,
+    pub palette: Palette,
+    pub title: String,
     pub x_label: String,
     pub y_label: String,
     pub x: Axis,
@@ -90,8 +105,8 @@ impl Plot {
         out.push(OverlayItem::Box {
             area: self.panel,
             corner_radius: 8.0 * self.scale,
-            fill: palette::PANEL.with_alpha(0.88),
-            stroke: Some(self.stroke(1.0, palette::PANEL_EDGE)),
+            fill: self.palette.panel.with_alpha(0.88),
+            stroke: Some(self.stroke(1.0, self.palette.panel_edge)),
         });
         // The label of the x axis stands at the right end of the tick labels, which leave it room.
         let room = self.area().max.x - text_width(&self.x_label, 11.0 * self.scale, false) - 16.0 * self.scale;
@@ -117,9 +132,9 @@ impl Plot {
             position: self.panel.min + Vec2::new(12.0, 19.0) * s,
             anchor: Anchor::Left,
             size: 13.0 * s,
-            colour: palette::TEXT,
+            colour: self.palette.text,
             bold: true,
-            text: self.title.to_owned(),
+            text: self.title.clone(),
         });
         out.push(self.text(area.max + Vec2::new(0.0, 14.0) * s, Anchor::Right, self.x_label.clone()));
         let place = Vec2::new(self.panel.min.x + 12.0 * s, area.min.y - 5.0 * s);
@@ -127,7 +142,7 @@ impl Plot {
     }
 
     fn draw_rule(&self, ends: [Vec2; 2], zero: bool, out: &mut Vec<OverlayItem>) {
-        let colour = if zero { palette::ZERO_LINE } else { palette::GRID };
+        let colour = if zero { self.palette.zero_line } else { self.palette.grid };
         out.push(OverlayItem::Line { points: ends.to_vec(), stroke: self.stroke(1.0, colour), clip: None });
     }
 
@@ -151,7 +166,7 @@ impl Plot {
             centre: self.pixel(x, y),
             radius: 4.5 * self.scale,
             fill: colour,
-            stroke: Some(self.stroke(1.5, palette::TEXT)),
+            stroke: Some(self.stroke(1.5, self.palette.text)),
         });
     }
 
@@ -160,7 +175,14 @@ impl Plot {
     }
 
     fn text(&self, position: Vec2, anchor: Anchor, text: String) -> OverlayItem {
-        OverlayItem::Text { position, anchor, size: 11.0 * self.scale, colour: palette::FAINT_TEXT, bold: false, text }
+        OverlayItem::Text {
+            position,
+            anchor,
+            size: 11.0 * self.scale,
+            colour: self.palette.faint_text,
+            bold: false,
+            text,
+        }
     }
 }
 
@@ -182,7 +204,8 @@ mod tests {
         let plot = Plot {
             panel: Rectangle { min: Vec2::new(100.0, 50.0), max: Vec2::new(400.0, 250.0) },
             scale: 1.0,
-            title: "",
+            palette: Palette::of(crate::scene::Theme::Dark),
+            title: String::new(),
             x_label: String::new(),
             y_label: String::new(),
             x: Axis::exactly(0.0, 10.0),

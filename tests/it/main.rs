@@ -20,12 +20,12 @@ mod convergence;
 mod demonstration;
 mod derivatives;
 mod diagram;
-mod doubling;
-#[cfg(feature = "cli")]
-mod engine_map;
 mod disk_exact;
 mod disk_linear;
 mod disk_waves;
+mod doubling;
+#[cfg(feature = "cli")]
+mod engine_map;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;
@@ -59,6 +59,8 @@ mod small_disk;
 #[cfg(feature = "render")]
 mod small_scene;
 mod special_curves;
+#[cfg(feature = "render")]
+mod stage;
 mod store;
 mod symmetry;
 mod tangent;

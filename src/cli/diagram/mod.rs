@@ -17,7 +17,8 @@ use crate::scene::Case;
 use crate::store::{Column, ColumnData, Table, write_table};
 use anyhow::ensure;
 use clap::Args;
-use motion::{ENGINE_STEPS, Solver, exactly, in_engine, start};
+pub use motion::prepare;
+use motion::{ENGINE_STEPS, Solver, in_engine, start};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -89,7 +90,7 @@ pub fn run(args: &DiagramArgs) -> anyhow::Result<Verdict> {
     }
     let at = |xi1| RigParameters { xi1, ..p };
     let rows = match args.solver {
-        Solver::Exact => saved::rows(args, &plan, &parameters, |xi1| Ok((exactly(at(xi1))?, start(at(xi1))?))),
+        Solver::Exact => saved::rows(args, &plan, &parameters, |xi1| prepare(at(xi1))),
         Solver::Rapier => {
             saved::rows(args, &plan, &parameters, |xi1| Ok((in_engine(at(xi1), engine)?, start(at(xi1))?)))
         }

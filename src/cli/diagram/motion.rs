@@ -68,12 +68,13 @@ pub fn start(p: RigParameters) -> Result<State, OrbitError> {
     }
 }
 
-pub fn exactly(p: RigParameters) -> Result<TwoMassFlow, Unprepared> {
-    Ok(exact_flow(p)?)
-}
-
 pub fn in_engine(p: RigParameters, settings: EngineSettings) -> Result<Sampled<EngineFlow>, Unprepared> {
     let flow = EngineFlow::new(TwoMassRig::new(p)?.chain(), settings)?;
     let steps = (TAU / ENGINE_SAMPLES / settings.step).round().max(1.0);
     Ok(Sampled::new(flow, steps * settings.step)?)
+}
+
+/// The exact flow, and where its motion starts.
+pub fn prepare(p: RigParameters) -> Result<(TwoMassFlow, State), Unprepared> {
+    Ok((exact_flow(p)?, start(p)?))
 }

@@ -9,7 +9,7 @@ mod turned;
 
 pub use block::{block, floor};
 pub use coil::{Coil, coil};
-pub use turned::{arrow, cylinder, sphere, tube};
+pub use turned::{arrow, cylinder, open_tube, sphere, tube};
 
 use super::draw_list::Mesh;
 use glam::Vec3;
@@ -54,6 +54,7 @@ mod tests {
             ("block", block(Vec3::new(1.0, 2.0, 3.0), 0.05), 48.0),
             ("cylinder", cylinder(2.0, 0.5, 0.02, 48), 2.0 * PI * 0.25),
             ("tube", tube(2.0, 0.5, 0.3, 0.01, 48), 2.0 * PI * (0.25 - 0.09)),
+            ("open tube", open_tube(2.0, 0.5, 0.3, [0.4, 1.2], 48), (PI - 0.6) * 2.0 * (0.25 - 0.09)),
             ("sphere", sphere(0.5, 32), 4.0 / 3.0 * PI * 0.125),
             ("arrow", arrow(2.0, 0.1, 0.5, 0.3, 32), PI * (0.01 * 1.5 + 0.09 * 0.5 / 3.0)),
             ("coil", coil(2.0, &coil_shape), PI * 0.05 * 0.05 * wire_length),
@@ -118,6 +119,7 @@ mod tests {
                 block(Vec3::splat(size), size),
                 cylinder(size, size, size, 0),
                 tube(size, size, size, size, 0),
+                open_tube(size, size, size, [size; 2], 0),
                 sphere(size, 0),
                 arrow(size, size, size, size, 0),
                 coil(size, &shape),

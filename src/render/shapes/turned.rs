@@ -93,6 +93,54 @@ pub fn tube(length: f32, outer_radius: f32, inner_radius: f32, bevel: f32, segme
     turn(&[&profile], segments)
 }
 
+/// Tube from x = 0 to `length` without the sector of `opening` (rad) about the direction `towards` (rad from +y to +z): what is inside
+/// can be seen. Edges are hard.
+#[must_use]
+pub fn open_tube(
+    length: f32,
+    outer_radius: f32,
+    inner_radius: f32,
+    [towards, opening]: [f32; 2],
+    segments: usize,
+) -> Mesh {
+    let count = segments.max(3);
+    let angle = |value: f32, least, most| if value.is_finite() { f64::from(value).clamp(least, most) } else { 0.0 };
+    let (towards, opening) = (angle(towards, -TAU, TAU), angle(opening, 0.0, 6.0));
+    let (first, span) = (towards + opening / 2.0, TAU - opening);
+    let around: Vec<[f32; 2]> = (0..=count)
+        .map(|step| {
+            let (sine, cosine) = sin_cos(first + span * step as f64 / count as f64);
+            [cosine as f32, sine as f32]
+        })
+        .collect();
+    let inner = inner_radius.min(outer_radius * 0.999);
+    let mut mesh = Mesh::default();
+    let mut strip = |from: [f32; 2], to: [f32; 2], normal: [f32; 2]| {
+        let mut previous: Option<[u32; 2]> = None;
+        for [cosine, sine] in &around {
+            let place = |[x, radius]: [f32; 2]| Vec3::new(x, radius * cosine, radius * sine);
+            let ring = [from, to].map(|end| mesh.corner(place(end), place(normal)));
+            if let Some([left, right]) = previous {
+                mesh.quad([left, ring[0], ring[1], right]);
+            }
+            previous = Some(ring);
+        }
+    };
+    strip([0.0, outer_radius], [length, outer_radius], [0.0, 1.0]);
+    strip([length, inner], [0.0, inner], [0.0, -1.0]);
+    strip([0.0, inner], [0.0, outer_radius], [-1.0, 0.0]);
+    strip([length, outer_radius], [length, inner], [1.0, 0.0]);
+    for (end, sign) in [(around[0], -1.0), (around[count], 1.0)] {
+        let [cosine, sine] = end;
+        let normal = Vec3::new(0.0, -sine, cosine) * sign;
+        let corners = [[0.0, inner], [0.0, outer_radius], [length, outer_radius], [length, inner]]
+            .map(|[x, radius]| mesh.corner(Vec3::new(x, radius * cosine, radius * sine), normal));
+        let [a, b, c, d] = corners;
+        mesh.quad(if sign > 0.0 { [d, c, b, a] } else { [a, b, c, d] });
+    }
+    mesh
+}
+
 /// Sphere about the origin, `segments` around and half as many from pole to pole.
 #[must_use]
 pub fn sphere(radius: f32, segments: usize) -> Mesh {

@@ -1,0 +1,153 @@
+//! The exact solution beside the engine's motion: outlines of the carriages where the exact solution has them, the difference magnified so
+//! that it can be seen, and a label that says by how much.
+
+use super::motion::{Instant, Motion};
+use super::palette::Palette;
+use super::rig::RigModel;
+use crate::render::{Anchor, Camera, OverlayItem, Stroke};
+use glam::{Vec2, Vec3};
+
+/// The largest difference of the film is drawn this long at most, in drawing units.
+const LONGEST: f64 = 0.3;
+/// Shorter ones are not seen: nothing is drawn.
+const SHORTEST: f64 = 0.004;
+/// Differences beyond this factor of magnification are rounding.
+const LARGEST_FACTOR: f64 = 1e9;
+/// Edges of a cuboid whose corners are numbered by the bits of their signs, and its faces seen from outside.
+const EDGES: [[usize; 2]; 12] =
+    [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+/// Front, right and upper face.
+const FACES: [[usize; 4]; 3] = [[4, 5, 7, 6], [1, 3, 7, 5], [2, 6, 7, 3]];
+
+/// A reference motion and how much its distance from the motion shown is magnified.
+#[derive(Debug, Clone)]
+pub struct Ghost {
+    reference: Motion,
+    factor: f64,
+}
+
+impl Ghost {
+    /// `None` where the two motions do not differ by more than rounding. `magnification` is that of displacements, drawing units per
+    /// unit.
+    #[must_use]
+    pub fn new(motion: &Motion, reference: Motion, magnification: f32) -> Option<Self> {
+        let end = reference.end();
+        let largest = motion.largest(|at| if at.time > end { 0.0 } else { distance(at, &reference.at(at.time)) });
+        let wanted = LONGEST / (largest * f64::from(magnification));
+        // A power of ten, and never a reduction.
+        let factor = 10f64.powf(wanted.log10().floor()).max(1.0);
+        (largest > 0.0 && factor <= LARGEST_FACTOR).then_some(Self { reference, factor })
+    }
+
+    /// Outlines and label at one instant, if there is something to see; the label stands at `place`.
+    pub fn draw(
+        &self,
+        rig: &RigModel,
+        camera: &Camera,
+        size: [u32; 2],
+        now: &Instant,
+        (palette, place, scale): (&Palette, Vec2, f32),
+        out: &mut Vec<OverlayItem>,
+    ) {
+        if now.time > self.reference.end() {
+            return;
+        }
+        let exact = self.reference.at(now.time);
+        for i in 0..2 {
+            let difference = self.factor * (exact.positions[i] - now.positions[i]);
+            if difference.abs() * f64::from(rig.magnification()) < SHORTEST {
+                continue;
+            }
+            let corners = rig.outline(i, now.positions[i] + difference);
+            draw_cuboid(corners, camera, size, (palette, scale), out);
+        }
+        let factor =
+            if self.factor > 1.0 { format!(", difference × {}", thousands(self.factor)) } else { String::new() };
+        out.push(OverlayItem::Text {
+            position: place,
+            anchor: Anchor::Left,
+            size: 13.0 * scale,
+            colour: palette.faint_text,
+            bold: false,
+            text: format!("outline: exact solution{factor}; now {:.1e} apart", distance(now, &exact)),
+        });
+    }
+}
+
+fn distance(a: &Instant, b: &Instant) -> f64 {
+    (0..2).map(|i| (a.positions[i] - b.positions[i]).abs()).fold(0.0, f64::max)
+}
+
+/// Digits in groups of three.
+fn thousands(value: f64) -> String {
+    let digits = format!("{value:.0}");
+    let first = digits.len() % 3;
+    let mut text = digits[..first].to_owned();
+    for group in digits.as_bytes()[first..].chunks(3) {
+        if !text.is_empty() {
+            text.push('\u{202f}');
+        }
+        text.extend(group.iter().map(|&byte| char::from(byte)));
+    }
+    text
+}
+
+fn draw_cuboid(
+    corners: [Vec3; 8],
+    camera: &Camera,
+    size: [u32; 2],
+    (palette, scale): (&Palette, f32),
+    out: &mut Vec<OverlayItem>,
+) {
+    let Some(places) = corners.iter().map(|&corner| camera.project(corner, size)).collect::<Option<Vec<Vec2>>>() else {
+        return;
+    };
+    for face in FACES {
+        let points = face.map(|corner| places[corner]).to_vec();
+        out.push(OverlayItem::Polygon { points, fill: palette.ghost.with_alpha(0.10), clip: None });
+    }
+    for [from, to] in EDGES {
+        let stroke = Stroke { width: 1.3 * scale, colour: palette.ghost.with_alpha(0.75) };
+        out.push(OverlayItem::Line { points: vec![places[from], places[to]], stroke, clip: None });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::{Outcome, Sample, State, Trajectory};
+    use crate::model::{ContactState, EnergyLedger};
+
+    /// x1 = sin t + offset, x2 = 0.
+    fn motion(offset: f64) -> Motion {
+        let sample = |n: u32| {
+            let time = 0.05 * f64::from(n);
+            Sample {
+                time,
+                state: State::two_mass([time.sin() + offset, 0.0, time.cos(), 0.0, 0.0]),
+                contacts: vec![ContactState::Stick],
+                ledger: EnergyLedger::default(),
+            }
+        };
+        let samples = (0..200).map(sample).collect();
+        Motion::new(&Trajectory { samples, events: vec![], outcome: Outcome::Completed }).unwrap()
+    }
+
+    #[test]
+    fn a_difference_is_magnified_by_the_power_of_ten_that_still_fits() {
+        let factor = |offset| Ghost::new(&motion(0.0), motion(offset), 0.3).map(|ghost| ghost.factor);
+        // 0.3 / (offset * 0.3), rounded down to a power of ten.
+        assert_eq!(factor(2e-5), Some(1e4));
+        assert_eq!(factor(0.9e-5), Some(1e5));
+        assert_eq!(factor(5.0), Some(1.0));
+        assert_eq!(factor(0.0), None);
+        assert_eq!(factor(1e-15), None, "rounding is no difference");
+    }
+
+    #[test]
+    fn factors_are_written_in_groups_of_three() {
+        assert_eq!(thousands(1000.0), "1\u{202f}000");
+        assert_eq!(thousands(100.0), "100");
+        assert_eq!(thousands(10_000.0), "10\u{202f}000");
+    }
+}

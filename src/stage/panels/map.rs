@@ -1,0 +1,92 @@
+//! Where the scene stands in the amplitude-damping diagram: amplitude of mass 1 over the self-excitation -xi1, with limit cycles, the
+//! range of amplitudes of the steady motions, and where they diverge.
+
+use super::Frame;
+use crate::model::Scales;
+use crate::render::{Anchor, OverlayItem, Rectangle};
+use crate::stage::envelope::Envelope;
+use crate::stage::motion::Instant;
+use crate::stage::plot::{Axis, Plot};
+use glam::Vec2;
+
+/// The diagram, non-dimensional.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DampingMap {
+    /// `(xi1, a1)` of limit cycles along their branch, and whether they are stable.
+    pub limit_cycles: Vec<(f64, f64, bool)>,
+    /// `xi1` and the smallest and largest maximum of x1 of a steady motion.
+    pub motions: Vec<(f64, [f64; 2])>,
+    /// `xi1` beyond which motions diverge.
+    pub divergence: Option<f64>,
+}
+
+/// Largest amplitude shown, non-dimensional.
+const HIGHEST: f64 = 3.4;
+/// Radius of a dot, pixels of a 720 lines high picture.
+const DOT: f32 = 1.3;
+
+#[derive(Debug, Clone)]
+pub(super) struct Map {
+    plot: Plot,
+    map: DampingMap,
+    scales: Scales,
+    xi1: f64,
+    envelope: Envelope,
+}
+
+impl Map {
+    pub fn new(frame: &Frame<'_>, place: Rectangle, map: DampingMap, xi1: f64) -> Self {
+        let strongest = map.motions.iter().map(|motion| -motion.0).fold(-1.05 * xi1, f64::max).max(0.02);
+        let axes = [Axis::exactly((-xi1).min(0.0), strongest), Axis::exactly(0.0, HIGHEST * frame.scales.length)];
+        let labels = ["−ξ₁".to_owned(), frame.label("a₁", "m")];
+        let plot = frame.plot(place, "Amplitude over self-excitation", labels, axes);
+        Self { plot, map, scales: frame.scales, xi1, envelope: Envelope::of_mass(frame.motion, 0) }
+    }
+
+    pub fn draw(&self, now: &Instant, out: &mut Vec<OverlayItem>) {
+        let (plot, palette, length) = (&self.plot, &self.plot.palette, self.scales.length);
+        plot.draw_frame(out);
+        for &(xi1, amplitudes) in self.map.motions.iter().filter(|(_, [_, largest])| *largest < HIGHEST) {
+            for amplitude in amplitudes {
+                let centre = plot.pixel(-xi1, amplitude * length);
+                out.push(OverlayItem::Disc { centre, radius: DOT * plot.scale, fill: palette.damping, stroke: None });
+            }
+        }
+        // Stable stretches go on to the first unstable point, so that the line has no gap.
+        for stable in [true, false] {
+            let runs = self.map.limit_cycles.chunk_by(|a, b| a.2 == b.2).scan(None, |last, run| {
+                let joined: Vec<_> = last.iter().chain(run).copied().collect();
+                *last = run.last().copied();
+                Some((run[0].2, joined))
+            });
+            let colour = if stable { palette.stick } else { palette.excitation };
+            for (_, run) in runs.filter(|(kind, _)| *kind == stable) {
+                plot.draw_line(run.into_iter().map(|(xi1, a1, _)| (-xi1, a1 * length)), 1.6, colour, out);
+            }
+        }
+        if let Some(edge) = self.map.divergence {
+            let ends = [(-edge, plot.y.min), (-edge, plot.y.max)];
+            plot.draw_line(ends.into_iter(), 1.2, palette.slip.with_alpha(0.7), out);
+            out.push(OverlayItem::Text {
+                position: plot.pixel(-edge, plot.y.min) - Vec2::new(4.0, 5.0) * plot.scale,
+                anchor: Anchor::Right,
+                size: 10.0 * plot.scale,
+                colour: palette.faint_text,
+                bold: false,
+                text: "diverges".to_owned(),
+            });
+        }
+        self.draw_here(now, out);
+    }
+
+    /// The amplitude now, at the last turning point, on a line at the scene's own damping.
+    fn draw_here(&self, now: &Instant, out: &mut Vec<OverlayItem>) {
+        let (plot, colour) = (&self.plot, self.plot.palette.masses[0]);
+        let x = -self.xi1;
+        plot.draw_line([(x, plot.y.min), (x, plot.y.max)].into_iter(), 1.2, colour.with_alpha(0.6), out);
+        if let Some([_, last]) = self.envelope.known(now.time) {
+            let amplitude = (self.envelope.at(last) * self.scales.length).min(plot.y.max);
+            plot.draw_marker(x, amplitude, colour, out);
+        }
+    }
+}

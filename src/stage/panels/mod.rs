@@ -1,0 +1,106 @@
+//! The live panels. Each says what it shows in the units of the scene, and shows nothing that is still to come.
+
+mod amplitudes;
+mod energy;
+mod map;
+mod planes;
+mod series;
+
+pub use map::DampingMap;
+
+use super::motion::{Instant, Motion};
+use super::palette::Palette;
+use super::plot::{Axis, Plot};
+use crate::model::Scales;
+use crate::render::{OverlayItem, Rectangle};
+use crate::scene::{Case, Panel};
+use amplitudes::Amplitudes;
+use energy::Energy;
+use map::Map;
+use planes::{Hysteresis, PhasePlane};
+use series::Series;
+
+/// Points of one line: more than pixels across a panel.
+const MOST_POINTS: usize = 700;
+/// Plots narrower than this have few ticks, pixels of a 720 lines high picture.
+const SMALL: f32 = 340.0;
+/// Pieces of a fading trail.
+const FADES: u32 = 10;
+/// Length of the bright part of a trail, non-dimensional time units.
+const TRAIL: f64 = 14.0;
+
+/// The panels of one film: their places and axes are the same in every frame.
+#[derive(Debug, Clone)]
+pub struct Panels {
+    drawn: Vec<Drawn>,
+}
+
+#[derive(Debug, Clone)]
+enum Drawn {
+    Series(Series),
+    Hysteresis(Hysteresis),
+    Phase(PhasePlane),
+    Amplitudes(Amplitudes),
+    Energy(Energy),
+    Map(Map),
+}
+
+/// What all panels are made with.
+#[derive(Debug, Clone, Copy)]
+struct Frame<'a> {
+    motion: &'a Motion,
+    scales: Scales,
+    scale: f32,
+    palette: Palette,
+}
+
+impl Frame<'_> {
+    fn plot(&self, panel: Rectangle, title: &str, [x_label, y_label]: [String; 2], [x, y]: [Axis; 2]) -> Plot {
+        let is_small = panel.max.x - panel.min.x < SMALL * self.scale;
+        let [x, y] = if is_small { [x.sparse(), y.sparse()] } else { [x, y] };
+        Plot { panel, scale: self.scale, palette: self.palette, title: title.to_owned(), x_label, y_label, x, y }
+    }
+
+    /// `name` alone, or with its unit where the scene is in SI.
+    fn label(&self, name: &str, unit: &str) -> String {
+        if self.scales == Scales::UNITY { name.to_owned() } else { format!("{name} [{unit}]") }
+    }
+}
+
+impl Panels {
+    /// The panels the case asks for, each in its place.
+    #[must_use]
+    pub fn new(
+        case: &Case,
+        motion: &Motion,
+        map: Option<&DampingMap>,
+        places: &[Rectangle],
+        scale: f32,
+        palette: Palette,
+    ) -> Self {
+        let frame = Frame { motion, scales: case.scales, scale, palette };
+        let panel = |(&kind, &place): (&Panel, &Rectangle)| match kind {
+            Panel::Series => Drawn::Series(Series::new(&frame, place)),
+            Panel::Hysteresis => Drawn::Hysteresis(Hysteresis::new(&frame, place)),
+            Panel::Phase => Drawn::Phase(PhasePlane::new(&frame, place)),
+            Panel::Amplitudes => Drawn::Amplitudes(Amplitudes::new(&frame, place)),
+            Panel::Energy => Drawn::Energy(Energy::new(&frame, place, case.prescribed.is_some())),
+            Panel::Map => Drawn::Map(Map::new(&frame, place, map.cloned().unwrap_or_default(), case.parameters.xi1)),
+        };
+        Self { drawn: case.direction.panels().iter().zip(places).map(panel).collect() }
+    }
+
+    /// All panels as they stand at `now`.
+    pub fn draw(&self, motion: &Motion, now: &Instant, out: &mut Vec<OverlayItem>) {
+        for panel in &self.drawn {
+            match panel {
+                Drawn::Series(panel) => panel.draw(motion, now, out),
+                Drawn::Hysteresis(panel) => panel.draw(motion, now, out),
+                Drawn::Phase(panel) => panel.draw(motion, now, out),
+                Drawn::Amplitudes(panel) => panel.draw(now, out),
+                Drawn::Energy(panel) => panel.draw(motion, now, out),
+                Drawn::Map(panel) => panel.draw(now, out),
+            }
+        }
+    }
+}

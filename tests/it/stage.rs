@@ -1,0 +1,257 @@
+//! What the frames of a film say, read off their display lists: every panel's numbers are those of the trajectory. Values are recovered
+//! from pixels through the tick labels alone, so that a wrong axis is found as well as a wrong point.
+
+use glam::Vec2;
+use stickslip::dynamics::{Flow, Sampling, State, Trajectory};
+use stickslip::exact::TwoMassFlow;
+use stickslip::model::TwoMassRig;
+use stickslip::render::{Anchor, DrawList, OverlayItem};
+use stickslip::scene::{Case, Initial, Panel, Scene};
+use stickslip::stage::{Beside, DampingMap, Motion, Stage};
+
+const INTERVAL: f64 = 0.04;
+
+fn exact(case: &Case) -> Trajectory {
+    let Initial::State { state } = case.initial else { panic!("the built-in scene gives its state") };
+    let flow = TwoMassFlow::new(&TwoMassRig::new(case.parameters).unwrap());
+    flow.trajectory(&State::two_mass(state), Sampling { interval: INTERVAL, t_end: case.duration }).unwrap()
+}
+
+/// The built-in scene and its exact motion.
+fn torus() -> (Case, Trajectory) {
+    let (_, case) = Scene::built_in().unwrap();
+    let trajectory = exact(&case);
+    (case, trajectory)
+}
+
+fn map() -> DampingMap {
+    DampingMap { limit_cycles: vec![(-0.02, 1.0, true)], motions: vec![(-0.2, [0.5, 1.5])], divergence: Some(-0.165) }
+}
+
+fn stage(case: &Case, trajectory: &Trajectory) -> Stage {
+    let beside = Beside { exact: None, map: Some(map()) };
+    Stage::new(case.clone(), Motion::new(trajectory).unwrap(), beside)
+}
+
+/// The items of each panel: a panel begins with its box, which has rounded corners of 8 pixels.
+fn panels(list: &DrawList) -> Vec<Vec<OverlayItem>> {
+    let is_frame = |item: &OverlayItem| matches!(item, OverlayItem::Box { corner_radius, .. } if *corner_radius == 8.0);
+    let mut found: Vec<Vec<OverlayItem>> = Vec::new();
+    for item in &list.overlay {
+        if is_frame(item) {
+            found.push(Vec::new());
+        } else if let Some(panel) = found.last_mut() {
+            panel.push(item.clone());
+        }
+    }
+    found
+}
+
+fn panel(list: &DrawList, kind: Panel) -> Vec<OverlayItem> {
+    let index = Panel::ALL.iter().position(|panel| *panel == kind).unwrap();
+    panels(list)[index].clone()
+}
+
+/// Value over pixel, from two ticks.
+struct Scale {
+    pixels: [f64; 2],
+    values: [f64; 2],
+}
+
+impl Scale {
+    fn value(&self, pixel: f32) -> f64 {
+        let part = (f64::from(pixel) - self.pixels[0]) / (self.pixels[1] - self.pixels[0]);
+        self.values[0] + part * (self.values[1] - self.values[0])
+    }
+}
+
+fn scales(panel: &[OverlayItem]) -> [Scale; 2] {
+    let ticks = |wanted: Anchor| -> Vec<(Vec2, f64)> {
+        let tick = |item: &OverlayItem| match item {
+            OverlayItem::Text { position, anchor, text, size, .. } if *anchor == wanted && *size == 11.0 => {
+                Some((*position, text.parse().ok()?))
+            }
+            _ => None,
+        };
+        panel.iter().filter_map(tick).collect()
+    };
+    let (x, y) = (ticks(Anchor::Centre), ticks(Anchor::Right));
+    let ends = |found: &[(Vec2, f64)], pixel: fn(Vec2) -> f32| {
+        let (first, last) = (found.first().expect("ticks"), found.last().expect("ticks"));
+        Scale { pixels: [first, last].map(|end| f64::from(pixel(end.0))), values: [first.1, last.1] }
+    };
+    // Labels stand 3.5 pixels below the value they name.
+    [ends(&x, |place| place.x), ends(&y, |place| place.y - 3.5)]
+}
+
+/// Data of all round marks of a panel, in order.
+fn discs(panel: &[OverlayItem]) -> Vec<[f64; 2]> {
+    let [x, y] = scales(panel);
+    let disc = |item: &OverlayItem| match item {
+        OverlayItem::Disc { centre, .. } => Some([x.value(centre.x), y.value(centre.y)]),
+        _ => None,
+    };
+    panel.iter().filter_map(disc).collect()
+}
+
+/// Pixels are f32 numbers of size 1000 over panels of a few hundred: 1e-4 pixels of 200, and as much from the ticks, of ranges up to 60.
+fn close(found: [f64; 2], expected: [f64; 2]) -> bool {
+    found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-4)
+}
+
+const FRAMES: [u64; 4] = [0, 100, 333, 600];
+
+#[test]
+fn series_hysteresis_and_phase_plane_show_the_state_of_the_moment() {
+    let (case, trajectory) = torus();
+    let (stage, motion) = (stage(&case, &trajectory), Motion::new(&trajectory).unwrap());
+    for index in FRAMES {
+        let (list, now) = (stage.frame(index), motion.at(stage.time(index)));
+        let ([x1, x2], v1) = (now.positions, now.velocities[0]);
+        let series = discs(&panel(&list, Panel::Series));
+        assert!(close(series[0], [now.time, x2]) && close(series[1], [now.time, x1]), "{series:?}");
+        let hysteresis = discs(&panel(&list, Panel::Hysteresis));
+        assert!(close(hysteresis[0], [x1, now.slider_force]), "{hysteresis:?}");
+        let phase = discs(&panel(&list, Panel::Phase));
+        assert!(close(*phase.last().unwrap(), [x1, v1]), "{phase:?}");
+        // Negative control: the frame before is told apart.
+        if index > 0 {
+            let before = motion.at(stage.time(index - 1));
+            assert!(!close(series[1], [before.time, before.positions[0]]));
+        }
+    }
+}
+
+#[test]
+fn the_section_accumulates_a_point_at_each_maximum_of_mass_2() {
+    let (case, trajectory) = torus();
+    let stage = stage(&case, &trajectory);
+    for index in FRAMES {
+        let now = stage.time(index);
+        let past = trajectory.samples.windows(2).filter(|pair| {
+            pair[0].state.velocities[1] > 0.0 && pair[1].state.velocities[1] <= 0.0 && pair[1].time <= now + 1e-9
+        });
+        let found = discs(&panel(&stage.frame(index), Panel::Phase)).len() - 1;
+        // A crossing in the sample interval that ends after the frame may count already.
+        let expected = past.count();
+        assert!(found == expected || found == expected + 1, "{found} points, {expected} maxima");
+    }
+}
+
+#[test]
+fn the_ledger_shows_the_works_of_the_last_period() {
+    let (case, trajectory) = torus();
+    let (stage, motion) = (stage(&case, &trajectory), Motion::new(&trajectory).unwrap());
+    for index in [100, 333, 600] {
+        let time = stage.time(index);
+        let (now, before) = (motion.at(time).ledger, motion.at(time - std::f64::consts::TAU).ledger);
+        let numbers: Vec<f64> = panel(&stage.frame(index), Panel::Energy)
+            .iter()
+            .filter_map(|item| match item {
+                OverlayItem::Text { anchor: Anchor::Right, text, .. } => text.replace('\u{2212}', "-").parse().ok(),
+                _ => None,
+            })
+            .collect();
+        let expected = [
+            now.works.self_excitation - before.works.self_excitation,
+            now.works.damping - before.works.damping,
+            now.works.friction - before.works.friction,
+            now.stored - before.stored,
+        ];
+        assert_eq!(numbers.len(), 5);
+        for (found, expected) in numbers.iter().zip(expected) {
+            // Three digits after the point.
+            assert!((found - expected).abs() <= 0.000_51, "{numbers:?}");
+        }
+        let left_over = expected[3] - expected[0] - expected[1] - expected[2];
+        // The exact flow closes its balance to rounding, but the ledger of a period ago is interpolated linearly between samples: the
+        // second difference of energies of size 1 over 0.04.
+        assert!((numbers[4] - left_over).abs() < 0.04_f64.powi(2) && left_over.abs() < 0.04_f64.powi(2), "{numbers:?}");
+    }
+}
+
+#[test]
+fn the_slow_amplitudes_are_the_largest_elongations_of_the_last_swing() {
+    let (case, trajectory) = torus();
+    let stage = stage(&case, &trajectory);
+    for index in [100, 333, 600] {
+        let [a1, a2] = discs(&panel(&stage.frame(index), Panel::Amplitudes))[0];
+        let time = stage.time(index);
+        // The mark is drawn at a time up to half a period before the frame, between two turning points half a period apart.
+        let swing = trajectory.samples.iter().filter(|sample| (time - 8.0..=time + 1.0).contains(&sample.time));
+        let extremes = |mass: usize| {
+            let tops = swing.clone().collect::<Vec<_>>();
+            let tops: Vec<f64> = tops
+                .windows(3)
+                .map(|w| [0, 1, 2].map(|i: usize| w[i].state.positions[mass].abs()))
+                .filter(|x| x[1] >= x[0] && x[1] >= x[2])
+                .map(|x| x[1])
+                .collect();
+            (tops.iter().copied().fold(f64::MAX, f64::min), tops.iter().copied().fold(0.0, f64::max))
+        };
+        for (found, (low, high)) in [(a1, extremes(0)), (a2, extremes(1))] {
+            // A sample misses its maximum by 0.02^2/2 of the amplitude.
+            assert!(found > low - 1e-3 && found < high + 1e-3, "{found} is not between {low} and {high}");
+        }
+    }
+}
+
+#[test]
+fn the_map_marks_the_damping_of_the_scene() {
+    let (case, trajectory) = torus();
+    let marks = discs(&panel(&stage(&case, &trajectory).frame(300), Panel::Map));
+    // Two dots of the diagram, then the mark.
+    assert!((marks[0][0] - 0.2).abs() < 1e-4 && (marks[0][1] - 0.5).abs() < 1e-4 && (marks[1][1] - 1.5).abs() < 1e-4);
+    assert!((marks[2][0] - 0.06).abs() < 1e-4 && (0.85..1.56).contains(&marks[2][1]), "{marks:?}");
+}
+
+#[test]
+fn a_scene_chooses_its_panels() {
+    let (mut case, trajectory) = torus();
+    case.direction.panels = Some(vec![Panel::Energy, Panel::Phase]);
+    let list = stage(&case, &trajectory).frame(10);
+    assert_eq!(panels(&list).len(), 2);
+    let text = "title = \"x\"\n[direction]\npanels = [\"phase\", \"phase\", \"phase\", \"phase\", \"phase\", \"phase\", \"phase\"]\n";
+    let refused = Scene::parse(text, "x").unwrap_err().to_string();
+    assert!(refused.contains("at most 6 panels") && refused.contains("line 3"), "{refused}");
+}
+
+#[test]
+fn the_exact_solution_is_outlined_where_it_differs_and_not_where_it_does_not() {
+    let (case, trajectory) = torus();
+    let motion = Motion::new(&trajectory).unwrap();
+    let mut late = trajectory.clone();
+    for sample in &mut late.samples {
+        sample.state.positions[0] += 3e-5;
+    }
+    let says = |exact: &Trajectory| {
+        let beside = Beside { exact: Motion::new(exact), map: None };
+        let list = Stage::new(case.clone(), motion.clone(), beside).frame(200);
+        list.overlay.iter().any(|item| matches!(item, OverlayItem::Text { text, .. } if text.contains("3.0e-5 apart")))
+    };
+    assert!(says(&late) && !says(&trajectory));
+}
+
+/// Every number and name that is drawn lies inside the picture.
+#[test]
+fn no_word_is_cut_off() {
+    let (case, trajectory) = torus();
+    for theme in [stickslip::scene::Theme::Dark, stickslip::scene::Theme::Light] {
+        let mut case = case.clone();
+        case.film.theme = theme;
+        let stage = stage(&case, &trajectory);
+        for index in (0..=600).step_by(60) {
+            for item in &stage.frame(index).overlay {
+                let OverlayItem::Text { position, anchor, size, bold, text, .. } = item else { continue };
+                let width = stickslip::render::text_width(text, *size, *bold);
+                let left = match anchor {
+                    Anchor::Left => position.x,
+                    Anchor::Centre => position.x - width / 2.0,
+                    Anchor::Right => position.x - width,
+                };
+                let inside = left >= 0.0 && left + width <= 1280.0 && position.y - size >= 0.0 && position.y <= 720.0;
+                assert!(inside, "frame {index}: {text:?} at {left}..{}, {}", left + width, position.y);
+            }
+        }
+    }
+}
