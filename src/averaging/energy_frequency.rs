@@ -35,6 +35,12 @@ pub enum NodeSpacing {
     Amplitude,
     /// Uniform in the square root of the energy above the sticking limit.
     RootEnergy,
+    /// Uniform in the energy.
+    Energy,
+}
+
+impl NodeSpacing {
+    pub const ALL: [Self; 4] = [Self::Arclength, Self::Amplitude, Self::RootEnergy, Self::Energy];
 }
 
 /// How w(E) is interpolated between limit cycles.
@@ -102,6 +108,11 @@ impl EnergyFrequency {
     #[must_use]
     pub fn definition(&self) -> EnergyDefinition {
         self.definition
+    }
+
+    /// Whether derivatives of all orders are continuous above the sticking limit, as those of a PCHIP are not.
+    pub(super) fn is_smooth(&self) -> bool {
+        matches!(self.relation, Relation::Smooth(_))
     }
 
     /// Energy at which slip begins, below which w = 1.
@@ -287,6 +298,7 @@ impl Followed {
             NodeSpacing::Arclength => index as f64,
             NodeSpacing::Amplitude => points[index].cycle.amplitude,
             NodeSpacing::RootEnergy => (points[index].energy - points[0].energy).max(0.0).sqrt(),
+            NodeSpacing::Energy => points[index].energy,
         };
         let last = points.len() - 1;
         let (from, to) = (coordinate(0), coordinate(last));

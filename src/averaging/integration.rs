@@ -44,7 +44,7 @@ pub(super) enum Ending<const N: usize> {
     Left { time: f64 },
 }
 
-/// From `y` at time 0 to `t_end`; `record` hears of time and state after each step (the start and the kinks included).
+/// From `y` at time 0 to `t_end`; `record` hears of time and state after each step (start, kinks and, where it leaves, the first state beyond included).
 pub(super) fn integrate<const N: usize, F: Field<N>>(
     field: &F,
     y: [f64; N],
@@ -91,8 +91,9 @@ impl<const N: usize, F: Field<N>, R: FnMut(f64, &[f64; N])> System<f64, SVector<
 
     fn solout(&mut self, time: f64, y: &SVector<f64, N>, _rate: &SVector<f64, N>) -> bool {
         let y = y.data.0[0];
-        if self.field.has_left(&y) || y.iter().any(|value| !value.is_finite()) {
+        if self.field.has_left(&y) {
             self.left = Some(time);
+            (self.record)(time, &y);
             return true;
         }
         let guards = [self.field.guards(&self.last.1), self.field.guards(&y)];

@@ -12,6 +12,7 @@
 //! | `slow_flow` | (10)-(12) |
 //! | `fixed_points` | stability, secondary Hopf points, fold |
 //! | `integration` | the slow flow in time |
+//! | `motion`, `restored_flow` | the fast oscillation restored, (4)-(5) |
 //! | `torus`, `torus_branch`, `doublings` | its limit cycles and their period doublings (Table 1) |
 
 mod describing;
@@ -22,8 +23,10 @@ mod error;
 mod fixed_points;
 mod integration;
 mod limit_cycles;
+mod motion;
 mod panels;
 mod pchip;
+mod restored_flow;
 mod slow_flow;
 mod torus;
 mod torus_branch;
@@ -35,5 +38,7 @@ pub use energy_frequency::{EnergyFrequency, Interpolation, LARGEST_ENERGY, NodeS
 pub use error::AveragingError;
 pub use fixed_points::{SlowFixedPoint, SlowFold, SlowHopf, fixed_point, folds, hopf_points};
 pub use limit_cycles::SlowLimitCycle;
+pub use motion::{SlowMotion, SlowState};
+pub use restored_flow::RestoredSlowFlow;
 pub use slow_flow::{SlowFlow, SlowRate};
 pub use torus::SlowTorus;

@@ -13,8 +13,23 @@ use super::integration::{Ending, Field, Tolerance, integrate};
 use super::slow_flow::SlowFlow;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-/// Tight, because period doublings lie close together: a relative error of 1e-11 of the multipliers moves the fifth by 1e-13.
-const TOLERANCE: Tolerance = Tolerance { relative: 1e-11, absolute: 1e-12, longest_step: 10.0 };
+/// How closely cycles are integrated and located. The knots of a PCHIP, at which the derivative of the field has a kink, would cost thousands
+/// of steps at the tolerance of the converged relation, and its own error is 1e-5.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Precision {
+    tolerance: Tolerance,
+    /// Newton step, relative to the scales, and width of a bracket, relative to xi1, that end the search for a doubling.
+    pub(super) last_step: f64,
+    pub(super) width: f64,
+}
+
+impl Precision {
+    pub(super) fn of(flow: &SlowFlow) -> Self {
+        let [relative, last_step, width] =
+            if flow.frequency().is_smooth() { [1e-11, 1e-9, 1e-11] } else { [1e-8, 1e-6, 1e-7] };
+        Self { tolerance: Tolerance { relative, absolute: 0.1 * relative, longest_step: 10.0 }, last_step, width }
+    }
+}
 
 /// The flow over a time with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +68,7 @@ pub(super) fn carried(flow: &SlowFlow, start: Vector3<f64>, duration: f64) -> Re
     let mut y = [0.0; 15];
     y[..3].copy_from_slice(start.as_slice());
     (y[3], y[7], y[11]) = (1.0, 1.0, 1.0);
-    match integrate(&Variational(flow), y, duration, TOLERANCE, |_, _| {})? {
+    match integrate(&Variational(flow), y, duration, Precision::of(flow).tolerance, |_, _| {})? {
         Ending::Left { time } => {
             Err(AveragingError::Left { from: start.as_slice().to_vec(), time, end: flow.frequency().largest_energy() })
         }

@@ -6,15 +6,15 @@
 use super::error::AveragingError;
 use super::fixed_points::SlowHopf;
 use super::slow_flow::SlowFlow;
-use super::torus::{SlowReturn, SlowTorus, carried};
+use super::torus::{Precision, SlowReturn, SlowTorus, carried};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
 
 type Unknowns = SVector<f64, 5>;
 
 const MAX_CORRECTIONS: usize = 7;
-/// Newton steps this short, relative to the scales, end the search; the next would be rounding.
-const LAST_STEP: f64 = 1e-10;
+/// Newton steps this short, relative to the scales, end the search along a branch: convergence is quadratic.
+const ROUGH: f64 = 1e-6;
 const SMALLEST_STEP: f64 = 1e-9;
 /// Largest change of the trace of the monodromy matrix in a step, so that no multiplier passes -1 twice unseen.
 const LARGEST_CHANGE: f64 = 0.6;
@@ -98,7 +98,7 @@ impl TorusBranch {
         let tangent = Unknowns::from([direction[0], direction[1], direction[2], 0.0, 0.0]);
         let guess = u + tangent * amplitude;
         let anchor = (state(&u), along);
-        let (found, returned) = corrected(flow, guess, &scales, &tangent, &anchor)?;
+        let (found, returned) = corrected(flow, guess, &scales, &tangent, &anchor, ROUGH)?;
         let chord = (found - u).component_div(&scales).normalize();
         let torus = torus_at(&found, &returned);
         let mut branch =
@@ -132,7 +132,7 @@ impl TorusBranch {
         let mut reason = "steps became too short".to_owned();
         while self.step > SMALLEST_STEP {
             let guess = self.u + self.tangent.component_mul(&self.scales) * self.step;
-            let found = corrected(&self.flow, guess, &self.scales, &self.tangent, &self.anchor);
+            let found = corrected(&self.flow, guess, &self.scales, &self.tangent, &self.anchor, ROUGH);
             match found {
                 Ok((u, returned)) => {
                     let torus = torus_at(&u, &returned);
@@ -156,24 +156,25 @@ impl TorusBranch {
     /// # Errors
     /// [`AveragingError::NoConvergence`] and what shooting returns.
     pub(super) fn doubling(&self, later: &Self) -> Result<SlowTorus, AveragingError> {
-        /// Width of xi1 in units of xi1 that ends the search, below the error from the tolerance of integration.
-        const WIDTH: f64 = 1e-12;
+        let precision = Precision::of(&self.flow);
         let mut ends = [(0.0, self.torus.doubling_test()), (1.0, later.torus.doubling_test())];
         let normal = (later.u - self.u).component_div(&self.scales).normalize();
-        let length = (later.u[4] - self.u[4]).abs().max(1e-300);
+        let length = (later.u[4] - self.u[4]).abs();
         let mut residual = f64::INFINITY;
-        let mut last = None::<(Unknowns, SlowTorus)>;
+        let mut last = None::<f64>;
         for _ in 0..60 {
             let part = ends[0].0 + (ends[1].0 - ends[0].0) * ends[0].1 / (ends[0].1 - ends[1].1);
             let guess = self.u.lerp(&later.u, part);
-            let (u, returned) = corrected(&self.flow, guess, &self.scales, &normal, &self.anchor)?;
+            let (u, returned) = corrected(&self.flow, guess, &self.scales, &normal, &self.anchor, precision.last_step)?;
             let torus = torus_at(&u, &returned);
             residual = torus.doubling_test();
-            let moved = last.map_or(f64::INFINITY, |(before, _)| (before[4] - u[4]).abs());
-            if moved <= WIDTH * u[4].abs() || (ends[1].0 - ends[0].0).abs() * length <= WIDTH * u[4].abs() {
+            let moved = last.map_or(f64::INFINITY, |before| (before - u[4]).abs());
+            if moved <= precision.width * u[4].abs()
+                || (ends[1].0 - ends[0].0).abs() * length <= precision.width * u[4].abs()
+            {
                 return Ok(torus);
             }
-            last = Some((u, torus));
+            last = Some(u[4]);
             if (residual < 0.0) == (ends[0].1 < 0.0) {
                 ends[0] = (part, residual);
                 ends[1].1 *= 0.5;
@@ -199,6 +200,7 @@ fn corrected(
     scales: &Unknowns,
     normal: &Unknowns,
     anchor: &(Vector3<f64>, Vector3<f64>),
+    last_step: f64,
 ) -> Result<(Unknowns, SlowReturn), AveragingError> {
     let mut u = guess;
     let mut residual = f64::INFINITY;
@@ -213,10 +215,11 @@ fn corrected(
         let off = normal.dot(&(u - guess).component_div(scales));
         let value = Unknowns::from([gap[0], gap[1], gap[2], phase, off]);
         let Some(step) = bordered(&returned, scales, normal, anchor).lu().solve(&value) else { break };
-        if step.amax() <= LAST_STEP {
+        u -= step.component_mul(scales);
+        if step.amax() <= last_step {
+            // The derivatives are those before the last step, which is as small as asked.
             return Ok((u, returned));
         }
-        u -= step.component_mul(scales);
     }
     Err(AveragingError::NoConvergence { what: "a cycle of the slow flow", at: guess.as_slice().to_vec(), residual })
 }
