@@ -1,17 +1,20 @@
 //! How the engine is run: step, substeps, precision, joints, and what is done about velocities.
 
 use crate::model::{ParameterError, Range};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which build of Rapier integrates the bodies. Force laws are evaluated in f64 in both.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
     /// `rapier3d`: poses, velocities and forces are rounded to f32. For the nominal two-mass rig over ten periods the state error stops
     /// falling at about 1e-5, reached at 4096 steps a period (measured: 1.1e-4 at 1024, 1.0e-5 at 4096, 9.2e-6 at 16384; in f64
     /// 1.1e-4, 5.5e-6, 3.6e-7). Choose double precision beyond.
+    #[serde(rename = "f32")]
     Single,
     /// `rapier3d-f64`.
+    #[serde(rename = "f64")]
     Double,
 }
 
@@ -27,7 +30,7 @@ impl Precision {
 }
 
 /// How a carriage is held on its rail.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Joints {
     /// Six coordinates per carriage, five of them held by the constraint solver.
@@ -60,7 +63,7 @@ impl Joints {
 /// Read as a method for `x' = v` this is first order if `w` stands for the velocity at the same time as `x`; with n = 1 it is the
 /// second-order leapfrog if `w` stands for the velocity `s = h/(2 n)` earlier. For n > 1 it pumps energy,
 /// `xi_num = -omega^2 h (1 - (n + 1)/(2 n))`, whatever `w` stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
     /// Start with `w_0 = v_0 - s a_0`; forces see `w_n + s a_(n-1)`; recorded velocity `w_n + s a_n`. Second order for one substep.
@@ -69,6 +72,18 @@ pub enum Scheme {
     LaggingDamping,
     /// `w` is taken for the velocity, as a plain user of the engine does: first order.
     Plain,
+}
+
+impl Scheme {
+    /// `second_order`, `lagging_damping` or `plain`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::SecondOrder => "second_order",
+            Self::LaggingDamping => "lagging_damping",
+            Self::Plain => "plain",
+        }
+    }
 }
 
 /// All that decides the engine's numbers beside the rig and its initial state.

@@ -11,6 +11,8 @@ mod cli;
 mod cli_analysis;
 #[cfg(feature = "engine")]
 mod compare;
+#[cfg(feature = "cli")]
+mod conformance;
 #[cfg(feature = "engine")]
 mod convergence;
 #[cfg(feature = "render")]

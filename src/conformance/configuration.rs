@@ -1,0 +1,105 @@
+//! Ways to run the engine: what the rows of the report differ in.
+
+use crate::engine::{EngineInfo, EngineSettings, Joints, Precision, Scheme};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// By what the engine exerts the forces of springs, dampers and friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Mechanism {
+    /// Our own force laws, evaluated before each step, their forces held constant over it.
+    Hook,
+}
+
+impl Mechanism {
+    /// As in the JSON.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Hook => "hook",
+        }
+    }
+}
+
+/// All that decides the engine's numbers beside the system, its start and the step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
+pub struct Configuration {
+    pub precision: Precision,
+    pub joints: Joints,
+    pub mechanism: Mechanism,
+    /// Rapier's `num_solver_iterations`.
+    pub substeps: usize,
+    pub scheme: Scheme,
+}
+
+impl Configuration {
+    /// The second-order recipe: f64, impulse joints, own force laws, one substep, velocities predicted.
+    pub const RECIPE: Self = Self {
+        precision: Precision::Double,
+        joints: Joints::Impulse,
+        mechanism: Mechanism::Hook,
+        substeps: 1,
+        scheme: Scheme::SecondOrder,
+    };
+
+    /// What a user of the engine gets without thinking: f32, four substeps, velocities at face value.
+    pub const ENGINE_DEFAULTS: Self = Self {
+        precision: Precision::Single,
+        joints: Joints::Impulse,
+        mechanism: Mechanism::Hook,
+        substeps: 4,
+        scheme: Scheme::Plain,
+    };
+
+    /// Every combination with the force laws as hooks: 2 precisions, 2 kinds of joints, 4 numbers of substeps, 3 schemes.
+    pub fn hooks() -> impl Iterator<Item = Self> {
+        let precisions = [Precision::Double, Precision::Single];
+        let joints = [Joints::Impulse, Joints::Multibody];
+        let schemes = [Scheme::SecondOrder, Scheme::LaggingDamping, Scheme::Plain];
+        precisions.into_iter().flat_map(move |precision| {
+            joints.into_iter().flat_map(move |joints| {
+                [1, 2, 4, 8].into_iter().flat_map(move |substeps| {
+                    let of = move |scheme| Self { precision, joints, mechanism: Mechanism::Hook, substeps, scheme };
+                    schemes.into_iter().map(of)
+                })
+            })
+        })
+    }
+
+    #[must_use]
+    pub fn settings(self, step: f64) -> EngineSettings {
+        let Self { precision, joints, substeps, scheme, .. } = self;
+        EngineSettings { step, substeps, precision, joints, scheme }
+    }
+
+    /// Name and version of the engine, `rapier3d-f64 0.36.1`.
+    #[must_use]
+    pub fn engine(self) -> String {
+        EngineInfo::of(self.precision).to_string()
+    }
+
+    /// Half the spacing of numbers at 1.
+    #[must_use]
+    pub fn unit_roundoff(self) -> f64 {
+        match self.precision {
+            Precision::Single => f64::from(f32::EPSILON) / 2.0,
+            Precision::Double => f64::EPSILON / 2.0,
+        }
+    }
+
+    /// Two where positions and forces are at the same instants, one otherwise: substeps move positions under a force that stands still.
+    #[must_use]
+    pub fn expected_order(self) -> f64 {
+        if self.scheme == Scheme::SecondOrder && self.substeps == 1 { 2.0 } else { 1.0 }
+    }
+}
+
+/// `f64 impulse hook 1 second_order`: names cases and sorts them.
+impl fmt::Display for Configuration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { precision, joints, mechanism, substeps, scheme } = self;
+        write!(f, "{} {} {} {substeps} {}", precision.word(), joints.word(), mechanism.word(), scheme.word())
+    }
+}

@@ -1,0 +1,199 @@
+//! What most scenarios share: a motion of some periods in the engine, beside the difference equation and the exact solution, at a step.
+
+use super::ConformanceError;
+use super::configuration::Configuration;
+use super::ladder::{Ladder, rounding_floor};
+use super::row::{Basis, Judgement, Physics, Row, Subject, Verdict};
+use super::scenario::{Bench, Case, Depth};
+use super::theory::DifferenceEquation;
+use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
+use crate::engine::trajectory_hash;
+use crate::model::OscillatorChain;
+
+/// Samples kept per period: enough to see every extreme, few enough for long ladders.
+const SAMPLES_PER_PERIOD: u32 = 32;
+
+/// Steps per period of the full report. 377 is the engine's default step of 1/60 for an angular frequency of 1.
+pub const FULL_LADDER: [u32; 10] = [32, 64, 128, 256, 377, 512, 1024, 2048, 4096, 8192];
+/// Those of the quick one.
+pub const QUICK_LADDER: [u32; 6] = [64, 128, 256, 377, 512, 1024];
+
+/// 1 % of the motion: the limit of what counts as physically right.
+pub const RIGHT: f64 = 0.01;
+
+/// Rounding may differ between the engine and the difference equation by this many floors. The engine rounds a few times a step, in
+/// positions, velocities and forces; and the floor is a standard deviation, of which the largest of some hundred samples is looked at.
+const ROUNDINGS: f64 = 16.0;
+
+/// A chain, where it starts, and how long it is watched.
+#[derive(Debug, Clone)]
+pub struct Experiment {
+    pub scenario: &'static str,
+    pub chain: OscillatorChain,
+    pub start: State,
+    pub period: f64,
+    pub periods: u32,
+}
+
+/// A motion at one step.
+#[derive(Debug, Clone)]
+pub struct Measured {
+    pub trajectory: Trajectory,
+    /// The difference equation at the same times.
+    pub predicted: Vec<State>,
+    pub hash: String,
+    pub floor: f64,
+    /// Largest component of the motion.
+    pub scale: f64,
+}
+
+/// Largest state errors at one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StateError {
+    pub found: f64,
+    pub expected: f64,
+    pub tolerance: f64,
+}
+
+impl Experiment {
+    /// Runs the engine and the difference equation with `steps` steps per period.
+    ///
+    /// # Errors
+    /// [`ConformanceError::Diverged`], and whatever the engine refuses.
+    pub fn measure(
+        &self,
+        bench: &dyn Bench,
+        configuration: Configuration,
+        steps: u32,
+    ) -> Result<Measured, ConformanceError> {
+        let step = self.period / f64::from(steps);
+        // Samples fall on steps, so that nothing is interpolated.
+        let stride = (steps / SAMPLES_PER_PERIOD).max(1);
+        let total = steps * self.periods / stride * stride;
+        let sampling = Sampling { interval: step * f64::from(stride), t_end: step * f64::from(total) };
+        let trajectory = bench.free(&self.chain, configuration, step)?.trajectory(&self.start, sampling)?;
+        if let Outcome::Diverged { time, bound } = trajectory.outcome {
+            return Err(ConformanceError::Diverged { scenario: self.scenario, time, bound });
+        }
+        let predicted = DifferenceEquation::new(&self.chain, configuration, step).motion(&self.start, total, stride);
+        let components = trajectory.samples.iter().flat_map(|sample| sample.state.components());
+        let scale = components.fold(0.0, |scale: f64, y| scale.max(y.abs()));
+        let floor = rounding_floor(configuration, scale, sampling.t_end, step);
+        Ok(Measured { hash: trajectory_hash(&trajectory), trajectory, predicted, floor, scale })
+    }
+
+    /// Length of the record.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.period * f64::from(self.periods)
+    }
+}
+
+impl Measured {
+    /// Errors against exact states at the sample times.
+    #[must_use]
+    pub fn state_error(&self, exact: &[State]) -> StateError {
+        let largest = |errors: &mut dyn Iterator<Item = f64>| errors.fold(0.0, f64::max);
+        let samples = || self.trajectory.samples.iter().map(|sample| &sample.state);
+        StateError {
+            found: largest(&mut samples().zip(exact).map(|(a, b)| a.max_difference(b))),
+            expected: largest(&mut self.predicted.iter().zip(exact).map(|(a, b)| a.max_difference(b))),
+            tolerance: ROUNDINGS * self.floor,
+        }
+    }
+
+    #[must_use]
+    pub fn times(&self) -> Vec<f64> {
+        self.trajectory.samples.iter().map(|sample| sample.time).collect()
+    }
+}
+
+impl StateError {
+    /// The row about it; right within 1 % of a motion of size `scale`.
+    #[must_use]
+    pub fn row(self, subject: &Subject, measured: &Measured, scale: f64) -> Row {
+        let reason = format!(
+            "{ROUNDINGS} floors of rounding between the engine and the difference equation; right: within 1 % of the motion"
+        );
+        let Self { found, expected, tolerance } = self;
+        let judgement = Judgement { basis: Basis::DifferenceEquation, expected, found, tolerance, reason };
+        let row = subject.row("state_error", judgement).against(0.0, RIGHT * scale);
+        row.with_floor(measured.floor).with_trajectory(&measured.hash)
+    }
+}
+
+/// Hooked configurations as cases: those that tell most in the quick run, all in the full one.
+#[must_use]
+pub fn hook_cases(scenario: &str, variant: &str, depth: Depth) -> Vec<Case> {
+    Configuration::hooks()
+        .map(|configuration| Case {
+            scenario: scenario.to_owned(),
+            variant: variant.to_owned(),
+            configuration,
+            steps: ladder(depth),
+            depth: if is_quick(configuration) { Depth::Quick } else { Depth::Full },
+        })
+        .collect()
+}
+
+/// Steps per period at a depth.
+#[must_use]
+pub fn ladder(depth: Depth) -> Vec<u32> {
+    match depth {
+        Depth::Quick => QUICK_LADDER.to_vec(),
+        Depth::Full => FULL_LADDER.to_vec(),
+    }
+}
+
+/// The recipe in either precision and with either kind of joint, its two spoilt versions, and the engine's defaults.
+fn is_quick(configuration: Configuration) -> bool {
+    use crate::engine::{Joints, Precision, Scheme};
+    let Configuration { precision, joints, substeps, scheme, .. } = configuration;
+    match (scheme, substeps) {
+        (Scheme::SecondOrder, 1) => precision == Precision::Double || joints == Joints::Impulse,
+        (Scheme::LaggingDamping, 1) => precision == Precision::Double && joints == Joints::Impulse,
+        (Scheme::Plain, 1) => precision == Precision::Double && joints == Joints::Impulse,
+        (Scheme::Plain, 4) => joints == Joints::Impulse,
+        _ => false,
+    }
+}
+
+/// Step rows of one quantity with their local orders, and the ladder's own row at the end.
+pub fn finish_ladder(
+    rows: &mut Vec<Row>,
+    subject: &Subject,
+    quantity: &str,
+    ladder: &Ladder,
+    expected_order: f64,
+    tolerance: f64,
+) {
+    let mut orders = ladder.local_orders().into_iter();
+    for row in rows.iter_mut().filter(|row| row.quantity == quantity && row.steps_per_period.is_some()) {
+        row.order = orders.next().flatten();
+        row.expected_order = Some(expected_order);
+    }
+    rows.push(ladder.row(subject, quantity, expected_order, tolerance));
+}
+
+/// Whether all rows passed; what was not run is no failure, and no success either.
+#[must_use]
+pub fn tally(rows: &[Row]) -> Tally {
+    let count = |verdict| rows.iter().filter(|row| row.verdict == verdict).count();
+    Tally {
+        passed: count(Verdict::Passed),
+        failed: count(Verdict::Failed),
+        not_run: count(Verdict::NotRun),
+        right: rows.iter().filter(|row| row.physics == Physics::Right).count(),
+        wrong: rows.iter().filter(|row| row.physics == Physics::Wrong).count(),
+    }
+}
+
+/// Numbers of rows by verdict and by physics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+pub struct Tally {
+    pub passed: usize,
+    pub failed: usize,
+    pub not_run: usize,
+    pub right: usize,
+    pub wrong: usize,
+}

@@ -1,0 +1,171 @@
+//! The difference equation that a configuration with hooked force laws should be. Rapier moves positions n times a step with a velocity
+//! that grows under one and the same force, so that with `a_i = M^-1 F(x_i, u_i, f_i)`
+//!
+//! ```text
+//! x_(i+1) = x_i + h w_i + c h^2 a_i,   w_(i+1) = w_i + h a_i,   c = (n + 1)/(2 n)
+//! u_i = w_i + p a_(i-1)                what the force laws are told; p = s with prediction, else 0
+//! v_i = w_i + s a_i                    what is recorded;  w_0 = v_0 - s a_0
+//! s = h/(2 n) if velocities are taken to be s early, 0 if they are taken at face value
+//! f_(i+1) = f_i + (k/R)(u_(i+1) - u_i), cut off at -1 and 1
+//! ```
+//!
+//! Written out here a second time, from the equations and in plain f64, so that a report row can tell an engine that behaves as its
+//! configuration must from one that does not. For `f = 0` it is linear: its eigenvalues mu give the frequency `arg(mu)/h` and the
+//! damping `-2 ln|mu|/h` of every mode. For one undamped oscillator of frequency w, with `r = w^2 h^2` and `e = 1 - c`:
+//!
+//! ```text
+//! xi_num = -w^2 h e (1 + O(r)),     w_num - w = w r (1/24 - c e/4 - 3 e^2/8) + O(r^2).
+//! ```
+
+use super::Configuration;
+use crate::dynamics::State;
+use crate::engine::Scheme;
+use crate::model::{LinearMode, OscillatorChain};
+use nalgebra::{Complex, DMatrix};
+
+/// The difference equation of a chain in a configuration.
+#[derive(Debug, Clone)]
+pub struct DifferenceEquation {
+    chain: OscillatorChain,
+    step: f64,
+    /// c
+    lift: f64,
+    /// s
+    stagger: f64,
+    /// p
+    prediction: f64,
+    /// Whether the first force already sees `w_0`.
+    lagging: bool,
+}
+
+impl DifferenceEquation {
+    #[must_use]
+    pub fn new(chain: &OscillatorChain, configuration: Configuration, step: f64) -> Self {
+        let n = configuration.substeps as f64;
+        let early = 0.5 * step / n;
+        let (stagger, prediction) = match configuration.scheme {
+            Scheme::SecondOrder => (early, early),
+            Scheme::LaggingDamping => (early, 0.0),
+            Scheme::Plain => (0.0, 0.0),
+        };
+        let lagging = configuration.scheme == Scheme::LaggingDamping;
+        Self { chain: chain.clone(), step, lift: (n + 1.0) / (2.0 * n), stagger, prediction, lagging }
+    }
+
+    /// The motion from `initial`: every `stride`-th of `steps` steps, the start included.
+    #[must_use]
+    pub fn motion(&self, initial: &State, steps: u32, stride: u32) -> Vec<State> {
+        let State { positions: mut x, velocities, slider_forces: mut f } = initial.clone();
+        let mut a = self.chain.acceleration(&x, &velocities, &f);
+        let mut w: Vec<f64> = velocities.iter().zip(&a).map(|(v, a)| v - self.stagger * a).collect();
+        if self.lagging {
+            a = self.chain.acceleration(&x, &w, &f);
+        }
+        let mut states = vec![initial.clone()];
+        for i in 1..=steps {
+            a = self.advance(&mut x, &mut w, &mut f, &a);
+            if i % stride == 0 {
+                let velocities = self.recorded(&w, &a);
+                states.push(State { positions: x.clone(), velocities, slider_forces: f.clone() });
+            }
+        }
+        states
+    }
+
+    /// One step under the acceleration `a`; returns the next one.
+    pub(super) fn advance(&self, x: &mut [f64], w: &mut [f64], f: &mut [f64], a: &[f64]) -> Vec<f64> {
+        let (h, old) = (self.step, x.to_vec());
+        for j in 0..x.len() {
+            x[j] += h * w[j] + self.lift * h * h * a[j];
+            w[j] += h * a[j];
+        }
+        for (element, force) in self.chain.jenkins().iter().zip(f.iter_mut()) {
+            let slid = element.attachment.elongation(x) - element.attachment.elongation(&old);
+            *force = (*force + element.normalised_stiffness() * slid).min(1.0).max(-1.0);
+        }
+        self.acceleration(x, w, f, a)
+    }
+
+    /// Where the step before was made under the acceleration `past`.
+    pub(super) fn acceleration(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
+        let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
+        self.chain.acceleration(x, &told, f)
+    }
+
+    /// `v = w + s a`
+    pub(super) fn recorded(&self, w: &[f64], a: &[f64]) -> Vec<f64> {
+        w.iter().zip(a).map(|(w, a)| w + self.stagger * a).collect()
+    }
+
+    /// Modes of the equation with all elements sticking, in order of angular frequency. Those that die out within a few steps, which the
+    /// remembered acceleration adds, are left out, and so are overdamped ones.
+    #[must_use]
+    pub fn modes(&self) -> Vec<LinearMode> {
+        let sticking = vec![true; self.chain.sliders()];
+        let n = self.chain.oscillators();
+        let system = self.chain.system_matrix(&sticking);
+        let (k, d) = (system.view((n, 0), (n, n)), system.view((n, n), (n, n)));
+        let (h, one) = (self.step, DMatrix::<f64>::identity(n, n));
+        // Columns x, w, a; the new acceleration is k x' + d (w' + p a).
+        let position = [one.clone(), &one * h, &one * (self.lift * h * h)];
+        let velocity = [DMatrix::zeros(n, n), one.clone(), &one * h];
+        let mut matrix = DMatrix::zeros(3 * n, 3 * n);
+        for block in 0..3 {
+            let told = if block == 2 { &velocity[2] + &one * self.prediction } else { velocity[block].clone() };
+            matrix.view_mut((0, block * n), (n, n)).copy_from(&position[block]);
+            matrix.view_mut((n, block * n), (n, n)).copy_from(&velocity[block]);
+            matrix.view_mut((2 * n, block * n), (n, n)).copy_from(&(k * &position[block] + d * told));
+        }
+        let mut modes: Vec<LinearMode> = matrix
+            .complex_eigenvalues()
+            .iter()
+            .filter(|mu| mu.im > 0.0 && mu.norm() > 0.5)
+            .map(|mu: &Complex<f64>| LinearMode { angular_frequency: mu.arg() / h, damping: -2.0 * mu.norm().ln() / h })
+            .collect();
+        modes.sort_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency));
+        modes
+    }
+}
+
+/// Numerical damping of an undamped oscillator with its spring as a hook, `-w^2 h (1 - (n + 1)/(2 n))`.
+#[must_use]
+pub fn hook_damping(angular_frequency: f64, step: f64, substeps: usize) -> f64 {
+    let n = substeps as f64;
+    -angular_frequency * angular_frequency * step * (1.0 - (n + 1.0) / (2.0 * n))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::ChainBuilder;
+
+    fn oscillator(damping: f64) -> OscillatorChain {
+        ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0).ground_damper(0, damping).build().unwrap()
+    }
+
+    fn mode(damping: f64, substeps: usize, scheme: Scheme, step: f64) -> LinearMode {
+        let configuration = Configuration { substeps, scheme, ..Configuration::RECIPE };
+        DifferenceEquation::new(&oscillator(damping), configuration, step).modes()[0]
+    }
+
+    #[test]
+    fn eigenvalues_follow_the_formulae_for_an_undamped_oscillator() {
+        let h = 0.01f64;
+        for n in [1, 2, 4, 8] {
+            let found = mode(0.0, n, Scheme::Plain, h);
+            let (c, e) = ((n as f64 + 1.0) / (2.0 * n as f64), 1.0 - (n as f64 + 1.0) / (2.0 * n as f64));
+            let shift = h * h * (1.0 / 24.0 - c * e / 4.0 - 3.0 * e * e / 8.0);
+            // The next terms are a factor h^2 = 1e-4 smaller; rounding of the logarithm, 1e-16/h.
+            assert!((found.damping - hook_damping(1.0, h, n)).abs() < 1e-4 * h + 1e-13, "{n}: {found:?}");
+            assert!((found.angular_frequency - 1.0 - shift).abs() < 1e-8 + 1e-13, "{n}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn the_prediction_makes_damping_second_order() {
+        let error = |scheme, h| (mode(0.2, 1, scheme, h).damping - 0.2).abs();
+        // Halving the step divides errors by 4 and by 2, within the next order in h = 0.02.
+        assert!((error(Scheme::SecondOrder, 0.02) / error(Scheme::SecondOrder, 0.01) - 4.0).abs() < 0.2);
+        assert!((error(Scheme::LaggingDamping, 0.02) / error(Scheme::LaggingDamping, 0.01) - 2.0).abs() < 0.1);
+    }
+}
