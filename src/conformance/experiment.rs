@@ -6,12 +6,12 @@ use super::ladder::{Ladder, rounding_floor};
 use super::row::{Basis, Judgement, Physics, Row, Subject, Verdict};
 use super::scenario::{Bench, Case, Depth};
 use super::theory::DifferenceEquation;
-use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
+use crate::dynamics::{Flow, Sampling, State, Trajectory};
 use crate::engine::trajectory_hash;
 use crate::model::OscillatorChain;
 
-/// Samples kept per period: enough to see every extreme, few enough for long ladders.
-const SAMPLES_PER_PERIOD: u32 = 32;
+/// Samples per period where states are compared: enough to see every extreme, few enough for long ladders.
+pub const SAMPLES_PER_PERIOD: u32 = 32;
 
 /// Steps per period of the full report. 377 is the engine's default step of 1/60 for an angular frequency of 1.
 pub const FULL_LADDER: [u32; 10] = [32, 64, 128, 256, 377, 512, 1024, 2048, 4096, 8192];
@@ -33,6 +33,8 @@ pub struct Experiment {
     pub start: State,
     pub period: f64,
     pub periods: u32,
+    /// Samples per period at least, if there are as many steps.
+    pub samples: u32,
 }
 
 /// A motion at one step.
@@ -40,7 +42,7 @@ pub struct Experiment {
 pub struct Measured {
     pub trajectory: Trajectory,
     /// The difference equation at the same times.
-    pub predicted: Vec<State>,
+    pub predicted: Trajectory,
     pub hash: String,
     pub floor: f64,
     /// Largest component of the motion.
@@ -59,7 +61,7 @@ impl Experiment {
     /// Runs the engine and the difference equation with `steps` steps per period.
     ///
     /// # Errors
-    /// [`ConformanceError::Diverged`], and whatever the engine refuses.
+    /// Whatever the engine refuses. Divergence is an outcome of the trajectories.
     pub fn measure(
         &self,
         bench: &dyn Bench,
@@ -68,13 +70,10 @@ impl Experiment {
     ) -> Result<Measured, ConformanceError> {
         let step = self.period / f64::from(steps);
         // Samples fall on steps, so that nothing is interpolated.
-        let stride = (steps / SAMPLES_PER_PERIOD).max(1);
+        let stride = (steps / self.samples).max(1);
         let total = steps * self.periods / stride * stride;
         let sampling = Sampling { interval: step * f64::from(stride), t_end: step * f64::from(total) };
         let trajectory = bench.free(&self.chain, configuration, step)?.trajectory(&self.start, sampling)?;
-        if let Outcome::Diverged { time, bound } = trajectory.outcome {
-            return Err(ConformanceError::Diverged { scenario: self.scenario, time, bound });
-        }
         let predicted = DifferenceEquation::new(&self.chain, configuration, step).motion(&self.start, total, stride);
         let components = trajectory.samples.iter().flat_map(|sample| sample.state.components());
         let scale = components.fold(0.0, |scale: f64, y| scale.max(y.abs()));
@@ -90,6 +89,12 @@ impl Experiment {
 }
 
 impl Measured {
+    /// Whether the engine's motion or the predicted one left all bounds.
+    #[must_use]
+    pub fn diverged(&self) -> bool {
+        self.trajectory.diverged() || self.predicted.diverged()
+    }
+
     /// Errors against exact states at the sample times.
     #[must_use]
     pub fn state_error(&self, exact: &[State]) -> StateError {
@@ -97,9 +102,21 @@ impl Measured {
         let samples = || self.trajectory.samples.iter().map(|sample| &sample.state);
         StateError {
             found: largest(&mut samples().zip(exact).map(|(a, b)| a.max_difference(b))),
-            expected: largest(&mut self.predicted.iter().zip(exact).map(|(a, b)| a.max_difference(b))),
+            expected: largest(&mut self.predicted.samples.iter().zip(exact).map(|(a, b)| a.state.max_difference(b))),
             tolerance: ROUNDINGS * self.floor,
         }
+    }
+
+    /// Positions of an oscillator at the sample times.
+    #[must_use]
+    pub fn positions(&self, oscillator: usize) -> Vec<f64> {
+        self.trajectory.samples.iter().map(|sample| sample.state.positions[oscillator]).collect()
+    }
+
+    /// Time between samples.
+    #[must_use]
+    pub fn interval(&self) -> f64 {
+        self.trajectory.samples[1].time
     }
 
     #[must_use]
@@ -158,21 +175,27 @@ fn is_quick(configuration: Configuration) -> bool {
     }
 }
 
-/// Step rows of one quantity with their local orders, and the ladder's own row at the end.
-pub fn finish_ladder(
-    rows: &mut Vec<Row>,
-    subject: &Subject,
-    quantity: &str,
-    ladder: &Ladder,
-    expected_order: f64,
-    tolerance: f64,
-) {
+/// Adds local orders to the step rows of one quantity, and the ladder's own row.
+pub fn finish_ladder(rows: &mut Vec<Row>, subject: &Subject, quantity: &str, ladder: &Ladder, tolerance: f64) {
     let mut orders = ladder.local_orders().into_iter();
-    for row in rows.iter_mut().filter(|row| row.quantity == quantity && row.steps_per_period.is_some()) {
+    for row in rows.iter_mut().filter(|row| row.quantity == quantity && row.found.is_some()) {
         row.order = orders.next().flatten();
-        row.expected_order = Some(expected_order);
     }
-    rows.push(ladder.row(subject, quantity, expected_order, tolerance));
+    rows.extend(ladder.row(subject, quantity, tolerance));
+}
+
+/// Whether the motion stays bounded, as the difference equation says, and as it should.
+#[must_use]
+pub fn bounded_row(at: &Subject, found: &Trajectory, predicted: &Trajectory) -> Row {
+    let bounded = |motion: &Trajectory| f64::from(u8::from(!motion.diverged()));
+    let judgement = Judgement {
+        basis: Basis::DifferenceEquation,
+        expected: bounded(predicted),
+        found: bounded(found),
+        tolerance: 0.0,
+        reason: "1: stays within |x| <= 1000, 0: diverges".to_owned(),
+    };
+    at.row("bounded", judgement).against(1.0, 0.0).with_trajectory(&trajectory_hash(found))
 }
 
 /// Whether all rows passed; what was not run is no failure, and no success either.

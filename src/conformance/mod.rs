@@ -5,27 +5,41 @@
 //! [`Configuration`], and each yields [`Row`]s: a number, its prediction, its exact value, and two separate judgements (see [`Row`]'s
 //! module): a [`Verdict`] on the prediction, and [`Physics`] on the truth.
 
+mod advice;
+mod changes;
 mod configuration;
+mod cost;
+mod document;
 mod error;
+mod exchange;
 mod experiment;
 mod fit;
 pub mod hopf;
 mod ladder;
 mod modal_rows;
+mod plan;
 mod registry;
 mod row;
 mod scenario;
 mod scenarios;
+mod switching;
 mod theory;
 
+pub use advice::{Advice, Fewest, HOPF_QUANTITY, advice};
+pub use changes::{Change, Changes};
 pub use configuration::{Configuration, Mechanism};
+pub use cost::costs;
+pub use document::{Cost, Machine, Parameters, Report, ScenarioNote, Timing};
 pub use error::ConformanceError;
+pub use exchange::{Score, ScoreCheck, Setup};
 pub use experiment::{
-    Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, finish_ladder, hook_cases, ladder, tally,
+    Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, bounded_row, finish_ladder, hook_cases,
+    ladder, tally,
 };
 pub use fit::fit_modes;
-pub use ladder::{Ladder, ORDER_TOLERANCE, rounding_floor};
-pub use modal_rows::{FORMULA_TOLERANCE, ModeAt, expected_orders};
+pub use ladder::{Ladder, ORDER_TOLERANCE, Rung, rounding_floor};
+pub use modal_rows::{FORMULA_TOLERANCE, ModeAt};
+pub use plan::{Archive, Progress, compute, scenario_named};
 pub use registry::registry;
 pub use row::{Basis, Judgement, Physics, Row, Subject, Verdict};
 pub use scenario::{Bench, Case, Depth, Rapier, Scenario, subject};

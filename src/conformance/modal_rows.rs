@@ -1,16 +1,18 @@
 //! Rows about the frequency and damping of a mode.
 
-use super::configuration::Configuration;
-use super::experiment::RIGHT;
+use super::experiment::{RIGHT, finish_ladder};
+use super::ladder::{Ladder, ORDER_TOLERANCE};
 use super::row::{Basis, Judgement, Row, Subject};
 use super::theory::hook_damping;
-use crate::engine::Scheme;
 use crate::model::LinearMode;
 use std::f64::consts::TAU;
 
 /// Numerical damping follows its formula within this part: the size of the next order at 32 steps per period, 0.9 %, and as much for
 /// rounding.
 pub const FORMULA_TOLERANCE: f64 = 0.02;
+
+/// Logarithms of eigenvalues near 1 are divided by steps down to 1e-3.
+const EIGENVALUE_ROUNDING: f64 = 1e-12;
 
 /// Rounding errors of the fit, in floors.
 const ROUNDINGS: f64 = 16.0;
@@ -29,6 +31,16 @@ pub struct ModeAt<'a> {
 }
 
 impl ModeAt<'_> {
+    /// Adds the errors of frequency and damping to their ladders.
+    pub fn climb(&self, ladders: &mut [Ladder], step: f64) {
+        let Self { found, predicted, truth, rounding, .. } = self;
+        let parts = |mode: &LinearMode| [mode.angular_frequency, mode.damping];
+        for (i, ladder) in ladders.iter_mut().take(2).enumerate() {
+            let error = |mode| (parts(mode)[i] - parts(truth)[i]).abs();
+            ladder.push(step, error(found), *rounding, Some(error(predicted)));
+        }
+    }
+
     /// Frequency and damping against the difference equation and the exact mode.
     #[must_use]
     pub fn rows(&self) -> [Row; 2] {
@@ -45,15 +57,17 @@ impl ModeAt<'_> {
                 "damping",
                 (found.damping, predicted.damping, truth.damping),
                 // e^(-d t/2) changes by 1 % where d t/2 = 0.01.
-                2.0 * RIGHT / (10.0 * period),
-                "right: amplitude within 1 % after ten periods",
+                (2.0 * RIGHT / (10.0 * period)).max(RIGHT * truth.damping.abs()),
+                "right: amplitude within 1 % after ten periods, or damping within 1 %",
             ),
         ]
     }
 
     fn row(&self, quantity: &str, (found, expected, exact): (f64, f64, f64), limit: f64, right: &str) -> Row {
-        let reason = format!("{ROUNDINGS} times what rounding does to the difference equation; {right}");
-        let tolerance = ROUNDINGS * self.rounding;
+        let reason = format!(
+            "2 % of the error that the difference equation has, and {ROUNDINGS} times what rounding does to it; {right}"
+        );
+        let tolerance = FORMULA_TOLERANCE * (expected - exact).abs() + ROUNDINGS * self.rounding + EIGENVALUE_ROUNDING;
         let judgement = Judgement { basis: Basis::DifferenceEquation, expected, found, tolerance, reason };
         let row = self.subject.row(&format!("{}{quantity}", self.prefix), judgement);
         row.against(exact, limit).with_floor(self.rounding)
@@ -69,7 +83,7 @@ impl ModeAt<'_> {
             basis: Basis::Formula,
             expected: formula,
             found: self.found.damping,
-            tolerance: FORMULA_TOLERANCE * formula.abs() + ROUNDINGS * self.rounding,
+            tolerance: FORMULA_TOLERANCE * formula.abs() + ROUNDINGS * self.rounding + EIGENVALUE_ROUNDING,
             reason: reason.to_owned(),
         };
         let limit = 2.0 * RIGHT / (10.0 * TAU / self.truth.angular_frequency);
@@ -78,15 +92,10 @@ impl ModeAt<'_> {
     }
 }
 
-/// Orders to expect of frequency and damping errors; none where the error is zero.
-#[must_use]
-pub fn expected_orders(configuration: Configuration, damped: bool) -> [Option<f64>; 2] {
-    let recipe = configuration.scheme == Scheme::SecondOrder && configuration.substeps == 1;
-    let frequency = if recipe || !damped { 2.0 } else { 1.0 };
-    let damping = match (recipe, configuration.substeps, damped) {
-        (_, 1, false) => None,
-        (true, _, true) => Some(2.0),
-        _ => Some(1.0),
-    };
-    [Some(frequency), damping]
+/// Adds the ladder rows about frequency and damping; none about a damping whose error is zero.
+pub fn finish_modes(rows: &mut Vec<Row>, subject: &Subject, prefix: &str, ladders: [&Ladder; 2], damped: bool) {
+    finish_ladder(rows, subject, &format!("{prefix}angular_frequency"), ladders[0], ORDER_TOLERANCE);
+    if damped || subject.configuration.substeps > 1 {
+        finish_ladder(rows, subject, &format!("{prefix}damping"), ladders[1], ORDER_TOLERANCE);
+    }
 }

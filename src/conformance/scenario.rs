@@ -2,6 +2,7 @@
 
 use super::ConformanceError;
 use super::configuration::{Configuration, Mechanism};
+use super::exchange::Setup;
 use super::row::{Row, Subject};
 use crate::engine::{EngineFlow, PrescribedFlow};
 use crate::model::{OscillatorChain, PrescribedMotion};
@@ -95,6 +96,14 @@ pub trait Scenario: Send + Sync {
     /// # Errors
     /// [`ConformanceError`] if the motion cannot be computed or measured; the case then is one failed row with the message.
     fn run(&self, case: &Case, bench: &dyn Bench) -> Result<Vec<Row>, ConformanceError>;
+
+    /// Motions with their references, for other engines to be judged by; none if there is nothing another engine could be given.
+    ///
+    /// # Errors
+    /// [`ConformanceError`] if a reference cannot be computed.
+    fn setups(&self) -> Result<Vec<Setup>, ConformanceError> {
+        Ok(Vec::new())
+    }
 }
 
 /// What the rows of a case are about.

@@ -18,15 +18,18 @@
 //! ```
 
 use super::Configuration;
-use crate::dynamics::State;
-use crate::engine::Scheme;
-use crate::model::{LinearMode, OscillatorChain};
+use crate::dynamics::{Outcome, Sample, State, Trajectory};
+use crate::engine::{DEFAULT_AMPLITUDE_BOUND, Scheme};
+use crate::model::{EnergyLedger, LinearMode, OscillatorChain};
 use nalgebra::{Complex, DMatrix};
 
 /// The difference equation of a chain in a configuration.
 #[derive(Debug, Clone)]
 pub struct DifferenceEquation {
     chain: OscillatorChain,
+    /// `M^-1 K` and `M^-1 (D + S)`.
+    stiffness: DMatrix<f64>,
+    damping: DMatrix<f64>,
     step: f64,
     /// c
     lift: f64,
@@ -48,48 +51,85 @@ impl DifferenceEquation {
             Scheme::LaggingDamping => (early, 0.0),
             Scheme::Plain => (0.0, 0.0),
         };
-        let lagging = configuration.scheme == Scheme::LaggingDamping;
-        Self { chain: chain.clone(), step, lift: (n + 1.0) / (2.0 * n), stagger, prediction, lagging }
+        let per_mass = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / chain.mass()[i])
+        };
+        Self {
+            chain: chain.clone(),
+            stiffness: per_mass(chain.stiffness()),
+            damping: per_mass(&chain.total_damping()),
+            step,
+            lift: (n + 1.0) / (2.0 * n),
+            stagger,
+            prediction,
+            lagging: configuration.scheme == Scheme::LaggingDamping,
+        }
     }
 
-    /// The motion from `initial`: every `stride`-th of `steps` steps, the start included.
+    /// The motion from `initial`: every `stride`-th of `steps` steps, the start included. Contacts and energies are left empty.
     #[must_use]
-    pub fn motion(&self, initial: &State, steps: u32, stride: u32) -> Vec<State> {
+    pub fn motion(&self, initial: &State, steps: u32, stride: u32) -> Trajectory {
         let State { positions: mut x, velocities, slider_forces: mut f } = initial.clone();
-        let mut a = self.chain.acceleration(&x, &velocities, &f);
+        let mut a = self.acceleration(&x, &velocities, &f);
         let mut w: Vec<f64> = velocities.iter().zip(&a).map(|(v, a)| v - self.stagger * a).collect();
         if self.lagging {
-            a = self.chain.acceleration(&x, &w, &f);
+            a = self.acceleration(&x, &w, &f);
         }
-        let mut states = vec![initial.clone()];
+        let mut samples = vec![bare_sample(0.0, initial.clone())];
         for i in 1..=steps {
             a = self.advance(&mut x, &mut w, &mut f, &a);
+            let time = f64::from(i) * self.step;
+            if x.iter().any(|x| x.abs() > DEFAULT_AMPLITUDE_BOUND) {
+                let outcome = Outcome::Diverged { time, bound: DEFAULT_AMPLITUDE_BOUND };
+                return Trajectory { samples, events: Vec::new(), outcome };
+            }
             if i % stride == 0 {
                 let velocities = self.recorded(&w, &a);
-                states.push(State { positions: x.clone(), velocities, slider_forces: f.clone() });
+                let state = State { positions: x.clone(), velocities, slider_forces: f.clone() };
+                samples.push(bare_sample(time, state));
             }
         }
-        states
+        Trajectory { samples, events: Vec::new(), outcome: Outcome::Completed }
     }
 
-    /// One step under the acceleration `a`; returns the next one.
+    fn elongations<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.chain.jenkins().iter().map(|element| element.attachment.elongation(x))
+    }
+
+    fn acceleration(&self, x: &[f64], u: &[f64], f: &[f64]) -> Vec<f64> {
+        let n = x.len();
+        let mut a = vec![0.0; n];
+        for (element, force) in self.chain.jenkins().iter().zip(f) {
+            element.attachment.scatter(-element.slip_force * force, &mut a);
+        }
+        for i in 0..n {
+            a[i] /= self.chain.mass()[i];
+            for j in 0..n {
+                a[i] -= self.stiffness[(i, j)] * x[j] + self.damping[(i, j)] * u[j];
+            }
+        }
+        a
+    }
+
+    /// One step under the acceleration `a`, in place; returns the next one.
     pub(super) fn advance(&self, x: &mut [f64], w: &mut [f64], f: &mut [f64], a: &[f64]) -> Vec<f64> {
-        let (h, old) = (self.step, x.to_vec());
+        let (h, old) = (self.step, self.elongations(x).collect::<Vec<f64>>());
         for j in 0..x.len() {
             x[j] += h * w[j] + self.lift * h * h * a[j];
             w[j] += h * a[j];
         }
-        for (element, force) in self.chain.jenkins().iter().zip(f.iter_mut()) {
-            let slid = element.attachment.elongation(x) - element.attachment.elongation(&old);
-            *force = (*force + element.normalised_stiffness() * slid).min(1.0).max(-1.0);
+        for (((element, force), new), old) in
+            self.chain.jenkins().iter().zip(f.iter_mut()).zip(self.elongations(x)).zip(old)
+        {
+            *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
         }
-        self.acceleration(x, w, f, a)
+        self.acceleration_after(x, w, f, a)
     }
 
     /// Where the step before was made under the acceleration `past`.
-    pub(super) fn acceleration(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
+    pub(super) fn acceleration_after(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
         let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
-        self.chain.acceleration(x, &told, f)
+        self.acceleration(x, &told, f)
     }
 
     /// `v = w + s a`
@@ -125,6 +165,11 @@ impl DifferenceEquation {
         modes.sort_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency));
         modes
     }
+}
+
+/// A sample of which only time and state are known.
+pub(super) fn bare_sample(time: f64, state: State) -> Sample {
+    Sample { time, state, contacts: Vec::new(), ledger: EnergyLedger::default() }
 }
 
 /// Numerical damping of an undamped oscillator with its spring as a hook, `-w^2 h (1 - (n + 1)/(2 n))`.
