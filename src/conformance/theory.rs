@@ -76,29 +76,17 @@ impl DifferenceEquation {
             a = self.acceleration(&x, &w, &f);
         }
         let mut samples = vec![bare_sample(0.0, initial.clone())];
-        let h = self.step;
-        let mut told = w.clone();
         for i in 1..=steps {
-            let old: Vec<f64> = self.elongations(&x).collect();
-            for j in 0..x.len() {
-                x[j] += h * w[j] + self.lift * h * h * a[j];
-                w[j] += h * a[j];
-                told[j] = w[j] + self.prediction * a[j];
-            }
-            for (((element, force), new), old) in
-                self.chain.jenkins().iter().zip(&mut f).zip(self.elongations(&x)).zip(old)
-            {
-                *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
-            }
-            a = self.acceleration(&x, &told, &f);
+            a = self.advance(&mut x, &mut w, &mut f, &a);
+            let time = f64::from(i) * self.step;
             if x.iter().any(|x| x.abs() > DEFAULT_AMPLITUDE_BOUND) {
-                let outcome = Outcome::Diverged { time: f64::from(i) * h, bound: DEFAULT_AMPLITUDE_BOUND };
+                let outcome = Outcome::Diverged { time, bound: DEFAULT_AMPLITUDE_BOUND };
                 return Trajectory { samples, events: Vec::new(), outcome };
             }
             if i % stride == 0 {
-                let velocities = w.iter().zip(&a).map(|(w, a)| w + self.stagger * a).collect();
+                let velocities = self.recorded(&w, &a);
                 let state = State { positions: x.clone(), velocities, slider_forces: f.clone() };
-                samples.push(bare_sample(f64::from(i) * h, state));
+                samples.push(bare_sample(time, state));
             }
         }
         Trajectory { samples, events: Vec::new(), outcome: Outcome::Completed }
@@ -121,6 +109,32 @@ impl DifferenceEquation {
             }
         }
         a
+    }
+
+    /// One step under the acceleration `a`, in place; returns the next one.
+    pub(super) fn advance(&self, x: &mut [f64], w: &mut [f64], f: &mut [f64], a: &[f64]) -> Vec<f64> {
+        let (h, old) = (self.step, self.elongations(x).collect::<Vec<f64>>());
+        for j in 0..x.len() {
+            x[j] += h * w[j] + self.lift * h * h * a[j];
+            w[j] += h * a[j];
+        }
+        for (((element, force), new), old) in
+            self.chain.jenkins().iter().zip(f.iter_mut()).zip(self.elongations(x)).zip(old)
+        {
+            *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
+        }
+        self.acceleration_after(x, w, f, a)
+    }
+
+    /// Where the step before was made under the acceleration `past`.
+    pub(super) fn acceleration_after(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
+        let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
+        self.acceleration(x, &told, f)
+    }
+
+    /// `v = w + s a`
+    pub(super) fn recorded(&self, w: &[f64], a: &[f64]) -> Vec<f64> {
+        w.iter().zip(a).map(|(w, a)| w + self.stagger * a).collect()
     }
 
     /// Modes of the equation with all elements sticking, in order of angular frequency. Those that die out within a few steps, which the

@@ -10,8 +10,10 @@
 //! respect to h is not affine, but serves Newton's method only.
 
 use super::HopfError;
+use super::discrete_map::{DiscreteMap, Source};
+use crate::conformance::Configuration;
 use crate::dynamics::{Closure, State};
-use crate::engine::{DiscreteState, EngineFlow, EngineSettings, Stepped};
+use crate::engine::{DiscreteState, Stepped};
 use crate::exact::TwoMassFlow;
 use crate::model::{RigParameters, TwoMassRig};
 use crate::orbit::limit_cycle;
@@ -30,12 +32,12 @@ const SLOW: f64 = 0.1;
 /// Fewer steps than this resolve no stick phase.
 const FEWEST_STEPS: u64 = 8;
 
-/// Which periodic orbit of the engine.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CycleProblem {
+/// Which periodic orbit of the engine. The step is found.
+#[derive(Debug, Clone, Copy)]
+pub struct CycleProblem<'a> {
+    pub source: Source<'a>,
+    pub configuration: Configuration,
     pub parameters: RigParameters,
-    /// All but the step, which is found.
-    pub settings: EngineSettings,
     /// Steps n over one period of the oscillation.
     pub steps: u64,
     /// Fraction phi of the first step at which mass 1 reverses, in [0, 1).
@@ -78,11 +80,12 @@ impl DiscreteOrbit {
     }
 }
 
-impl CycleProblem {
+impl<'a> CycleProblem<'a> {
     /// Half-period map of the nominal rig.
     #[must_use]
-    pub fn symmetric(settings: EngineSettings, steps: u64, phase: f64) -> Self {
-        Self { parameters: RigParameters::default(), settings, steps, phase, closure: Closure::HalfPeriod }
+    pub fn symmetric(source: Source<'a>, configuration: Configuration, steps: u64, phase: f64) -> Self {
+        let (parameters, closure) = (RigParameters::default(), Closure::HalfPeriod);
+        Self { source, configuration, parameters, steps, phase, closure }
     }
 
     /// With another self-excitation.
@@ -159,8 +162,7 @@ impl CycleProblem {
     /// Closing defect of the state without f, then the phase condition.
     fn residual(&self, u: &DVector<f64>) -> Result<(DVector<f64>, Stepped), HopfError> {
         let d = u.len() - 1;
-        let flow = self.flow(u[d])?;
-        let stepped = flow.steps_from(&discrete_state(u), self.count())?;
+        let stepped = self.map(u[d])?.steps(&discrete_state(u), self.count())?;
         let end = unknowns(&stepped.end, 0.0);
         let [v0, v1] = &stepped.first_velocities;
         let reversal = (1.0 - self.phase) * v0[0] + self.phase * v1[0];
@@ -206,12 +208,11 @@ impl CycleProblem {
         let t = -self.phase * step;
         let at = |i: usize| x[i] + t * (v[i] + 0.5 * t * a[i]);
         let state = State::two_mass([at(0), at(1), v[0] + t * a[0], v[1] + t * a[1], 1.0]);
-        Ok(unknowns(&self.flow(step)?.discrete_start(&state)?, step))
+        Ok(unknowns(&self.map(step)?.start(&state)?, step))
     }
 
-    fn flow(&self, step: f64) -> Result<EngineFlow, HopfError> {
-        let rig = TwoMassRig::new(self.parameters)?;
-        Ok(EngineFlow::new(rig.chain(), EngineSettings { step, ..self.settings })?)
+    fn map(&self, step: f64) -> Result<Box<dyn DiscreteMap>, HopfError> {
+        self.source.map(TwoMassRig::new(self.parameters)?.chain(), self.configuration, step)
     }
 
     fn check(&self) -> Result<(), HopfError> {

@@ -1,3 +1,4 @@
+use crate::conformance::ConformanceError;
 use crate::engine::EngineError;
 use crate::model::ParameterError;
 use crate::orbit::OrbitError;
@@ -8,6 +9,9 @@ use thiserror::Error;
 pub enum HopfError {
     #[error(transparent)]
     Engine(#[from] EngineError),
+    /// The engine could not be built as asked.
+    #[error(transparent)]
+    Bench(Box<ConformanceError>),
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     /// The exact orbit, from which Newton's method starts.

@@ -14,10 +14,12 @@
 //! Assumptions: the nominal rig or one near it (a symmetric limit cycle with one stick and one slip phase per half period); odd symmetry of
 //! the engine, which the orbit over the full period confirms ([`CycleProblem::closure`]).
 
+mod discrete_map;
 mod discrete_orbit;
 mod error;
 mod secondary_hopf;
 
+pub use discrete_map::Source;
 pub use discrete_orbit::{CycleProblem, DiscreteOrbit};
 pub use error::HopfError;
-pub use secondary_hopf::{HopfPoint, at_step, over_phases, secondary_hopf};
+pub use secondary_hopf::{HopfPoint, at_step, over_phases, phases, secondary_hopf};

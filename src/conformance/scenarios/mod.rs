@@ -14,6 +14,7 @@ mod mechanism_linear;
 mod near_motion;
 mod negative_damping;
 mod rig_motion;
+mod secondary_hopf;
 mod settled;
 mod torus;
 
@@ -29,4 +30,5 @@ pub use linear_oscillator::LinearOscillator;
 pub use mechanism_friction::MechanismFriction;
 pub use mechanism_linear::MechanismLinear;
 pub use negative_damping::NegativeDamping;
+pub use secondary_hopf::SecondaryHopf;
 pub use torus::Torus;
