@@ -4,6 +4,7 @@ mod analysis;
 mod branch;
 mod case_args;
 mod common;
+mod conformance;
 mod diagram;
 mod film;
 mod generate;
@@ -48,6 +49,7 @@ enum Command {
     Lyapunov(lyapunov::LyapunovArgs),
     Poincare(poincare::PoincareArgs),
     Diagram(diagram::DiagramArgs),
+    Conformance(conformance::ConformanceArgs),
     Paper(paper::PaperArgs),
     /// Print the JSON Schema of scene files.
     Schema(generate::SchemaArgs),
@@ -93,6 +95,7 @@ pub fn main() -> ExitCode {
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Poincare(args) => poincare::run(&args),
         Command::Diagram(args) => diagram::run(&args),
+        Command::Conformance(args) => conformance::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Schema(args) => generate::schema(&args),
         Command::Completions(args) => generate::completions(&args),
