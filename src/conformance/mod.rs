@@ -14,6 +14,7 @@ mod error;
 mod exchange;
 mod experiment;
 mod fit;
+pub mod hopf;
 mod ladder;
 mod modal_rows;
 mod page;

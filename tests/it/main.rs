@@ -19,6 +19,8 @@ mod convergence;
 mod demonstration;
 mod derivatives;
 mod diagram;
+#[cfg(feature = "cli")]
+mod engine_map;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;

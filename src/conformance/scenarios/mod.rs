@@ -12,6 +12,7 @@ mod linear_oscillator;
 mod near_motion;
 mod negative_damping;
 mod rig_motion;
+mod secondary_hopf;
 mod settled;
 mod torus;
 
@@ -25,4 +26,5 @@ pub use joint_drift::JointDrift;
 pub use limit_cycle::LimitCycle;
 pub use linear_oscillator::LinearOscillator;
 pub use negative_damping::NegativeDamping;
+pub use secondary_hopf::SecondaryHopf;
 pub use torus::Torus;
