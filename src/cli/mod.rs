@@ -4,6 +4,7 @@ mod analysis;
 mod branch;
 mod case_args;
 mod common;
+mod conformance;
 mod damping_map;
 mod diagram;
 mod film;
@@ -50,6 +51,7 @@ enum Command {
     Lyapunov(lyapunov::LyapunovArgs),
     Poincare(poincare::PoincareArgs),
     Diagram(diagram::DiagramArgs),
+    Conformance(conformance::ConformanceArgs),
     Paper(paper::PaperArgs),
     Modes(modes::ModesArgs),
     /// Print the JSON Schema of scene files.
@@ -96,6 +98,7 @@ pub fn main() -> ExitCode {
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Poincare(args) => poincare::run(&args),
         Command::Diagram(args) => diagram::run(&args),
+        Command::Conformance(args) => conformance::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Modes(args) => modes::run(&args),
         Command::Schema(args) => generate::schema(&args),

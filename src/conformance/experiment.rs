@@ -148,7 +148,7 @@ pub fn hook_cases(scenario: &str, variant: &str, depth: Depth) -> Vec<Case> {
             variant: variant.to_owned(),
             configuration,
             steps: ladder(depth),
-            depth: if is_quick(configuration) { Depth::Quick } else { Depth::Full },
+            depth: if is_notable(configuration) { Depth::Quick } else { Depth::Full },
         })
         .collect()
 }
@@ -162,8 +162,10 @@ pub fn ladder(depth: Depth) -> Vec<u32> {
     }
 }
 
-/// The recipe in either precision and with either kind of joint, its two spoilt versions, and the engine's defaults.
-fn is_quick(configuration: Configuration) -> bool {
+/// Configurations that tell most: the recipe in either precision and with either kind of joint, its two spoilt versions, and the engine's
+/// defaults.
+#[must_use]
+pub fn is_notable(configuration: Configuration) -> bool {
     use crate::engine::{Joints, Precision, Scheme};
     let Configuration { precision, joints, substeps, scheme, .. } = configuration;
     match (scheme, substeps) {

@@ -20,6 +20,7 @@ pub mod linear_mechanisms;
 mod modal_rows;
 pub mod native_friction;
 pub mod oscillation;
+mod page;
 mod plan;
 mod registry;
 mod row;
@@ -37,11 +38,12 @@ pub use error::ConformanceError;
 pub use exchange::{Score, ScoreCheck, Setup};
 pub use experiment::{
     Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, bounded_row, finish_ladder, hook_cases,
-    ladder, tally,
+    is_notable, ladder, tally,
 };
 pub use fit::fit_modes;
 pub use ladder::{Ladder, ORDER_TOLERANCE, Rung, rounding_floor};
 pub use modal_rows::{FORMULA_TOLERANCE, ModeAt};
+pub use page::{html, markdown};
 pub use plan::{Archive, Progress, compute, scenario_named};
 pub use registry::registry;
 pub use row::{Basis, Judgement, Physics, Row, Subject, Verdict};

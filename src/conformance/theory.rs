@@ -70,10 +70,10 @@ impl DifferenceEquation {
     #[must_use]
     pub fn motion(&self, initial: &State, steps: u32, stride: u32) -> Trajectory {
         let State { positions: mut x, velocities, slider_forces: mut f } = initial.clone();
-        let mut a = self.acceleration(&x, &velocities, &f);
+        let mut a = self.acceleration_at(&x, &velocities, &f);
         let mut w: Vec<f64> = velocities.iter().zip(&a).map(|(v, a)| v - self.stagger * a).collect();
         if self.lagging {
-            a = self.acceleration(&x, &w, &f);
+            a = self.acceleration_at(&x, &w, &f);
         }
         let mut samples = vec![bare_sample(0.0, initial.clone())];
         for i in 1..=steps {
@@ -85,18 +85,42 @@ impl DifferenceEquation {
             }
             if i % stride == 0 {
                 let velocities = self.recorded(&w, &a);
-                let state = State { positions: x.clone(), velocities, slider_forces: f.clone() };
-                samples.push(bare_sample(time, state));
+                samples.push(bare_sample(time, State { positions: x.clone(), velocities, slider_forces: f.clone() }));
             }
         }
         Trajectory { samples, events: Vec::new(), outcome: Outcome::Completed }
     }
 
-    fn elongations<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        self.chain.jenkins().iter().map(|element| element.attachment.elongation(x))
+    /// One step under the acceleration `a`; returns the next one.
+    pub(super) fn advance(&self, x: &mut [f64], w: &mut [f64], f: &mut [f64], a: &[f64]) -> Vec<f64> {
+        let h = self.step;
+        let elongations = |x: &[f64]| -> Vec<f64> {
+            self.chain.jenkins().iter().map(|element| element.attachment.elongation(x)).collect()
+        };
+        let old = elongations(x);
+        for j in 0..x.len() {
+            x[j] += h * w[j] + self.lift * h * h * a[j];
+            w[j] += h * a[j];
+        }
+        for (((element, force), new), old) in self.chain.jenkins().iter().zip(f.iter_mut()).zip(elongations(x)).zip(old)
+        {
+            *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
+        }
+        self.acceleration(x, w, f, a)
     }
 
-    fn acceleration(&self, x: &[f64], u: &[f64], f: &[f64]) -> Vec<f64> {
+    /// Where the step before was made under the acceleration `past`.
+    pub(super) fn acceleration(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
+        let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
+        self.acceleration_at(x, &told, f)
+    }
+
+    /// `v = w + s a`
+    pub(super) fn recorded(&self, w: &[f64], a: &[f64]) -> Vec<f64> {
+        w.iter().zip(a).map(|(w, a)| w + self.stagger * a).collect()
+    }
+
+    fn acceleration_at(&self, x: &[f64], u: &[f64], f: &[f64]) -> Vec<f64> {
         let n = x.len();
         let mut a = vec![0.0; n];
         for (element, force) in self.chain.jenkins().iter().zip(f) {
@@ -109,32 +133,6 @@ impl DifferenceEquation {
             }
         }
         a
-    }
-
-    /// One step under the acceleration `a`, in place; returns the next one.
-    pub(super) fn advance(&self, x: &mut [f64], w: &mut [f64], f: &mut [f64], a: &[f64]) -> Vec<f64> {
-        let (h, old) = (self.step, self.elongations(x).collect::<Vec<f64>>());
-        for j in 0..x.len() {
-            x[j] += h * w[j] + self.lift * h * h * a[j];
-            w[j] += h * a[j];
-        }
-        for (((element, force), new), old) in
-            self.chain.jenkins().iter().zip(f.iter_mut()).zip(self.elongations(x)).zip(old)
-        {
-            *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
-        }
-        self.acceleration_after(x, w, f, a)
-    }
-
-    /// Where the step before was made under the acceleration `past`.
-    pub(super) fn acceleration_after(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
-        let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
-        self.acceleration(x, &told, f)
-    }
-
-    /// `v = w + s a`
-    pub(super) fn recorded(&self, w: &[f64], a: &[f64]) -> Vec<f64> {
-        w.iter().zip(a).map(|(w, a)| w + self.stagger * a).collect()
     }
 
     /// Modes of the equation with all elements sticking, in order of angular frequency. Those that die out within a few steps, which the

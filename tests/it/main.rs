@@ -16,6 +16,10 @@ mod cli_analysis;
 mod compare;
 #[cfg(feature = "cli")]
 mod conformance;
+#[cfg(feature = "cli")]
+mod conformance_controls;
+#[cfg(feature = "cli")]
+mod conformance_exchange;
 #[cfg(feature = "engine")]
 mod convergence;
 #[cfg(feature = "render")]
