@@ -258,36 +258,3 @@ fn rows_of_native_friction_fail_only_where_the_slider_rings_ever_louder() {
     let unexpected: Vec<Row> = rows.iter().filter(|row| !rings(row)).cloned().collect();
     assert_eq!(failures(&unexpected), Vec::<String>::new());
 }
-
-#[test]
-#[ignore]
-fn probe_rows() {
-    use stickslip::conformance::*;
-    let deep = std::env::var("DEEP").is_ok();
-    let depth = if deep { Depth::Full } else { Depth::Quick };
-    let only = std::env::var("ONLY").unwrap_or_default();
-    for scenario in registry()
-        .into_iter()
-        .filter(|s| s.id().contains(only.as_str()) && (s.id() == "linear_mechanisms" || s.id() == "native_friction"))
-    {
-        let clock = std::time::Instant::now();
-        let cases: Vec<_> = scenario.cases(depth).into_iter().filter(|c| deep || c.depth == Depth::Quick).collect();
-        println!("#### {} {} cases", scenario.id(), cases.len());
-        for case in cases {
-            for row in scenario.run(&case, &Rapier).unwrap() {
-                println!(
-                    "{:?} {:?} {} exp {:?} found {:?} tol {:?} exact {:?} {}",
-                    row.verdict,
-                    row.physics,
-                    row.identity(),
-                    row.expected,
-                    row.found,
-                    row.tolerance,
-                    row.exact,
-                    if row.found.is_none() { row.reason.as_str() } else { "" }
-                );
-            }
-        }
-        println!("#### {:?}", clock.elapsed());
-    }
-}
