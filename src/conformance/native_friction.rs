@@ -14,6 +14,7 @@
 use super::ConformanceError;
 use super::oscillation::{Oscillation, maxima, upward_zeros};
 use super::scenario::Bench;
+use super::slider_map::{SliderMap, Start};
 use crate::dynamics::{DenseFlow, Motion, Outcome, State};
 use crate::engine::EngineSettings;
 use crate::engine::mechanism::{
@@ -34,6 +35,8 @@ const STOPPED: f64 = 0.01;
 /// Force under which a slider is held, and for how long.
 pub const HELD_FORCE: f64 = 0.5;
 pub const HOLDING_TIME: f64 = 4.0;
+/// Length of a decay.
+const DECAY_TIME: f64 = 20.0;
 /// Length of a run of the two-mass rig, of which the last fifth is measured.
 pub const RIG_TIME: f64 = 1000.0;
 /// Cycles that are run, of which the last is measured.
@@ -184,21 +187,34 @@ pub fn ride(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Resu
     of_carriage(&motion, settings.step)
 }
 
-/// The third maximum after a start at x = 3: found, and exact.
+/// A number found in the engine, given by the difference equation where one is known, and exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Threefold {
+    pub found: f64,
+    pub predicted: Option<f64>,
+    pub exact: f64,
+}
+
+/// The third maximum after a start at x = 3.
 ///
 /// # Errors
 /// Whatever stops the engine or the exact flow.
-pub fn decay(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<[f64; 2], ConformanceError> {
+pub fn decay(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Threefold, ConformanceError> {
     let start = MechanismSample::at(vec![3.0], vec![0.0], 1.0);
-    let motion = run_free(making.oscillator(bench, settings, 1.0, Drive::Free)?, &start, 20.0)?;
+    let motion = run_free(making.oscillator(bench, settings, 1.0, Drive::Free)?, &start, DECAY_TIME)?;
     let found = third_maximum(&of_positions(&motion), settings.step)?;
+    let plain = ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0);
+    let start = Start { positions: vec![3.0], velocities: vec![0.0], force: 1.0 };
+    let chain = plain.clone().build()?;
+    let map = SliderMap { chain: &chain, stiffness: 1.0, slip_force: 1.0, making, settings };
+    let predicted = map.positions(&start, (DECAY_TIME / settings.step).round() as u64);
+    let predicted = predicted.map(|positions| third_maximum(&positions, settings.step)).transpose()?;
     let element = JenkinsElement { attachment: Attachment::Ground(0), stiffness: 1.0, slip_force: 1.0 };
-    let chain = ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0).jenkins(element).build()?;
     let state = State { positions: vec![3.0], velocities: vec![0.0], slider_forces: vec![1.0] };
-    let exact = ChainFlow::new(&chain).motion(&state, 20.0)?;
+    let exact = ChainFlow::new(&plain.jenkins(element).build()?).motion(&state, DECAY_TIME)?;
     let at = |n: u32| exact.state(f64::from(n) * 1e-3).map(|state| state.positions[0]);
     let positions: Result<Vec<f64>, _> = (0..=20_000).map(at).collect();
-    Ok([found, third_maximum(&positions?, 1e-3)?])
+    Ok(Threefold { found, predicted, exact: third_maximum(&positions?, 1e-3)? })
 }
 
 /// The two-mass rig with a native element, started on an orbit.
@@ -209,6 +225,8 @@ pub struct RigMotion {
     pub angular_frequency: f64,
 }
 
+/// What the engine does, and the difference equation where one is known.
+///
 /// # Errors
 /// Whatever stops the engine, [`ConformanceError::Diverged`], and a motion that is no oscillation.
 pub fn two_mass(
@@ -217,8 +235,7 @@ pub fn two_mass(
     parameters: RigParameters,
     start: &PeriodicOrbit,
     settings: EngineSettings,
-    duration: f64,
-) -> Result<RigMotion, ConformanceError> {
+) -> Result<(RigMotion, Option<RigMotion>), ConformanceError> {
     let rig = TwoMassRig::new(parameters)?;
     let whole = rig.chain();
     let chain = ChainBuilder::new(whole.mass().as_slice().to_vec())
@@ -226,19 +243,29 @@ pub fn two_mass(
         .add_damping(whole.damping())
         .add_self_excitation(whole.self_excitation())
         .build()?;
-    let element = making.element(parameters.gamma, parameters.gamma);
-    let state = start.reversal();
-    let start = MechanismSample::at(state.positions, state.velocities, parameters.gamma * state.slider_forces[0]);
-    let motion = run_free(bench.native(making.rig(chain, element, Drive::Free), settings)?, &start, duration)?;
-    let positions = of_positions(&motion);
-    let last = &positions[positions.len() / 5 * 4..];
-    let values: Vec<f64> = maxima(last, settings.step).into_iter().map(|maximum| maximum.1).collect();
-    let zeros = upward_zeros(last, settings.step);
-    let [first, .., end] = zeros.as_slice() else { return Err(too_few("upward zeros", zeros.len(), 2)) };
-    Ok(RigMotion {
-        maxima: [values.iter().copied().fold(f64::MAX, f64::min), values.iter().copied().fold(f64::MIN, f64::max)],
-        angular_frequency: TAU * (zeros.len() - 1) as f64 / (end - first),
-    })
+    let gamma = parameters.gamma;
+    let State { positions, velocities, slider_forces } = start.reversal();
+    let start = Start { positions, velocities, force: gamma * slider_forces[0] };
+    let map = SliderMap { chain: &chain, stiffness: gamma, slip_force: gamma, making, settings };
+    let predicted = map.positions(&start, (RIG_TIME / settings.step).round() as u64);
+    let flow = bench.native(making.rig(chain.clone(), making.element(gamma, gamma), Drive::Free), settings)?;
+    let Start { positions, velocities, force } = start;
+    let motion = run_free(flow, &MechanismSample::at(positions, velocities, force), RIG_TIME)?;
+    let predicted = predicted.map(|positions| RigMotion::of(&positions, settings.step)).transpose()?;
+    Ok((RigMotion::of(&of_positions(&motion), settings.step)?, predicted))
+}
+
+impl RigMotion {
+    fn of(positions: &[f64], step: f64) -> Result<Self, ConformanceError> {
+        let last = &positions[positions.len() / 5 * 4..];
+        let values: Vec<f64> = maxima(last, step).into_iter().map(|maximum| maximum.1).collect();
+        let zeros = upward_zeros(last, step);
+        let [first, .., end] = zeros.as_slice() else { return Err(too_few("upward zeros", zeros.len(), 2)) };
+        Ok(Self {
+            maxima: [values.iter().copied().fold(f64::MAX, f64::min), values.iter().copied().fold(f64::MIN, f64::max)],
+            angular_frequency: TAU * (zeros.len() - 1) as f64 / (end - first),
+        })
+    }
 }
 
 fn run_free(flow: MechanismFlow, start: &MechanismSample, duration: f64) -> Result<MechanismMotion, ConformanceError> {

@@ -1,0 +1,118 @@
+//! The difference equation that a Jenkins element made of a slider body amounts to, its spring a force law: what the engine should do,
+//! step by step, without the engine.
+//!
+//! With forces found at the start of a step of n substeps `d = h/n`, and `clamp` to the friction impulse `R d`, a substep is
+//!
+//! ```text
+//! carriages      w += d a,   x += d w
+//! dry friction   w_s += d F/ms,   w_s += clamp(-ms w_s)/ms,   s += d w_s
+//! contact        w_s += d F/ms + p/ms,   s += d w_s,   p' = clamp(p - ms w_s),   w_s += (p' - p)/ms      p from the substep before
+//! saturating     w += clamp(-d kt (x + d w)/(1 + d^2 kt/m))/m
+//! ```
+
+use super::native_friction::Making;
+use crate::engine::mechanism::{ElementSpring, FrictionMechanism};
+use crate::engine::{EngineSettings, Scheme};
+use crate::model::OscillatorChain;
+
+/// A chain with an element of stiffness and slip force on oscillator 0.
+#[derive(Debug, Clone)]
+pub struct SliderMap<'a> {
+    pub chain: &'a OscillatorChain,
+    pub stiffness: f64,
+    pub slip_force: f64,
+    pub making: Making,
+    pub settings: EngineSettings,
+}
+
+/// Where a motion starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    pub positions: Vec<f64>,
+    pub velocities: Vec<f64>,
+    /// Force in the element.
+    pub force: f64,
+}
+
+struct Motion {
+    x: Vec<f64>,
+    w: Vec<f64>,
+    before: Vec<f64>,
+    slider: f64,
+    slider_velocity: f64,
+    impulse: f64,
+}
+
+impl SliderMap<'_> {
+    /// Positions of oscillator 0 after 0, 1, ... `steps` steps; `None` where no difference equation is known: for slider bodies on a spring joint.
+    #[must_use]
+    pub fn positions(&self, start: &Start, steps: u64) -> Option<Vec<f64>> {
+        if self.making.mechanism.has_slider_body() && self.making.spring != ElementSpring::Hook {
+            return None;
+        }
+        let mut motion = Motion {
+            x: start.positions.clone(),
+            w: start.velocities.clone(),
+            before: start.velocities.clone(),
+            slider: start.positions[0] - start.force / self.stiffness,
+            slider_velocity: 0.0,
+            impulse: 0.0,
+        };
+        let mut positions = vec![motion.x[0]];
+        for _ in 0..steps {
+            self.step(&mut motion);
+            positions.push(motion.x[0]);
+        }
+        Some(positions)
+    }
+
+    fn step(&self, motion: &mut Motion) {
+        let d = self.settings.step / self.settings.substeps as f64;
+        let lead = if self.settings.scheme == Scheme::Plain { 0.0 } else { 0.5 / self.settings.substeps as f64 };
+        let known: Vec<f64> = motion.w.iter().zip(&motion.before).map(|(w, before)| w + lead * (w - before)).collect();
+        let mut a = self.chain.acceleration(&motion.x, &known, &[]);
+        let force = match self.making.mechanism {
+            FrictionMechanism::SaturatingMotor => 0.0,
+            _ => self.stiffness * (motion.x[0] - motion.slider),
+        };
+        a[0] -= force / self.chain.mass()[0];
+        motion.before.copy_from_slice(&motion.w);
+        for _ in 0..self.settings.substeps {
+            for (w, a) in motion.w.iter_mut().zip(a.iter()) {
+                *w += d * a;
+            }
+            self.friction(motion, force, d);
+            for (x, w) in motion.x.iter_mut().zip(&motion.w) {
+                *x += d * w;
+            }
+        }
+        if self.making.mechanism == FrictionMechanism::Hook {
+            let reach = self.slip_force / self.stiffness;
+            motion.slider = motion.slider.clamp(motion.x[0] - reach, motion.x[0] + reach);
+        }
+    }
+
+    fn friction(&self, motion: &mut Motion, force: f64, d: f64) {
+        let (limit, ms) = (self.slip_force * d, self.making.slider_mass);
+        match self.making.mechanism {
+            FrictionMechanism::Hook => {}
+            FrictionMechanism::SaturatingMotor => {
+                let m = self.chain.mass()[0];
+                let wanted = -d * self.stiffness * (motion.x[0] + d * motion.w[0]) / (1.0 + d * d * self.stiffness / m);
+                motion.w[0] += wanted.clamp(-limit, limit) / m;
+            }
+            FrictionMechanism::LimitedMotor | FrictionMechanism::JointFriction => {
+                motion.slider_velocity += d * force / ms;
+                motion.slider_velocity += (-ms * motion.slider_velocity).clamp(-limit, limit) / ms;
+                motion.slider += d * motion.slider_velocity;
+            }
+            FrictionMechanism::CoulombContact | FrictionMechanism::SimplifiedContact => {
+                motion.slider_velocity += (d * force + motion.impulse) / ms;
+                motion.slider += d * motion.slider_velocity;
+                let impulse = (motion.impulse - ms * motion.slider_velocity).clamp(-limit, limit);
+                motion.slider_velocity += (impulse - motion.impulse) / ms;
+                motion.impulse = impulse;
+            }
+        }
+    }
+}
