@@ -5,6 +5,7 @@ mod branch;
 mod case_args;
 mod common;
 mod diagram;
+mod disk;
 mod film;
 mod generate;
 mod hopf;
@@ -49,6 +50,7 @@ enum Command {
     Poincare(poincare::PoincareArgs),
     Diagram(diagram::DiagramArgs),
     Modes(modes::ModesArgs),
+    Disk(disk::DiskArgs),
     /// Print the JSON Schema of scene files.
     Schema(generate::SchemaArgs),
     /// Print shell completions.
@@ -94,6 +96,7 @@ pub fn main() -> ExitCode {
         Command::Poincare(args) => poincare::run(&args),
         Command::Diagram(args) => diagram::run(&args),
         Command::Modes(args) => modes::run(&args),
+        Command::Disk(args) => disk::run(&args),
         Command::Schema(args) => generate::schema(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man => generate::man(),

@@ -17,7 +17,10 @@ mod convergence;
 mod demonstration;
 mod derivatives;
 mod diagram;
+#[cfg(feature = "engine")]
+mod disk_engine;
 mod disk_exact;
+mod disk_flutter;
 mod disk_linear;
 mod disk_waves;
 #[cfg(feature = "engine")]
