@@ -24,7 +24,7 @@ fn disk(sectors: usize) -> BladedDisk {
 /// The flow, and a state after 20 periods from irregular displacements, when all contacts slip.
 fn settled(sectors: usize) -> (SparseFlow, State) {
     let chain = disk(sectors).chain().expect("the disk is valid");
-    let positions = (0..sectors).map(|i| 1.5 * (2.4 * (i * i) as f64 + 0.3).sin()).collect();
+    let positions = (0..sectors).map(|i| 4.0 * (2.4 * (i * i) as f64 + 0.3).sin()).collect();
     let start = State { positions, ..State::rest(&chain) };
     let flow = SparseFlow::new(&chain);
     let arrival = flow.advance(&start, 20.0 * TAU).expect("the start is valid");

@@ -17,6 +17,8 @@ mod convergence;
 mod demonstration;
 mod derivatives;
 mod diagram;
+#[cfg(feature = "cli")]
+mod disk_cli;
 #[cfg(feature = "engine")]
 mod disk_engine;
 mod disk_exact;

@@ -9,7 +9,6 @@ use crate::report::{Chart, Series, Style, Tint};
 use crate::store::{Existing, Origin, OutputDir};
 use clap::Args;
 use serde_json::json;
-use std::io::Write;
 use std::path::PathBuf;
 
 /// Monte Carlo over the random mistuning of a scene: linear flutter margins, fates and amplitudes of the exact motions.
