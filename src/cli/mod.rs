@@ -7,6 +7,7 @@ mod common;
 mod conformance;
 mod damping_map;
 mod diagram;
+mod disk;
 mod film;
 mod generate;
 mod hopf;
@@ -54,6 +55,7 @@ enum Command {
     Conformance(conformance::ConformanceArgs),
     Paper(paper::PaperArgs),
     Modes(modes::ModesArgs),
+    Disk(disk::DiskArgs),
     /// Print the JSON Schema of scene files.
     Schema(generate::SchemaArgs),
     /// Print shell completions.
@@ -101,6 +103,7 @@ pub fn main() -> ExitCode {
         Command::Conformance(args) => conformance::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Modes(args) => modes::run(&args),
+        Command::Disk(args) => disk::run(&args),
         Command::Schema(args) => generate::schema(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man => generate::man(),

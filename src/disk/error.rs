@@ -29,6 +29,8 @@ pub enum DiskError {
         "the wave of nodal diameter {wave} did not converge, residual {residual:e}: take fewer harmonics or weaker air"
     )]
     NoConvergence { wave: i64, residual: f64 },
+    #[error("the motion has come to rest: no blade swings within {time} after it has settled")]
+    NoOscillation { time: f64 },
     #[error("orbit of the ring: {0}")]
     Orbit(#[from] crate::orbit::OrbitError),
     #[error("motion of the disk: {0}")]

@@ -3,15 +3,21 @@
 //! - [`TravellingWave`]: the wave of a tuned ring from one sector (`one_sector`), by harmonic balance with exact friction integrals.
 //! - [`ring_wave`], [`wave_multipliers`]: the same wave as an orbit of the whole ring under the exact flow, and its Floquet multipliers grouped
 //!   by interblade phase angle (`ring`).
+//! - [`settled_cycle`]: limit cycles of mistuned disks (`cycle`).
 //! - [`wave_amplitudes`]: the spectrum by nodal diameter (`spectrum`).
 //! - [`MonteCarlo`]: flutter of randomly mistuned disks, resumable (`monte_carlo`).
 
+mod balance;
+mod cycle;
 mod error;
 mod monte_carlo;
+mod odd_series;
 mod one_sector;
 mod ring;
+mod sector;
 mod spectrum;
 
+pub use cycle::{DiskCycle, settled_cycle};
 pub use error::DiskError;
 pub use monte_carlo::{Fate, FateCounts, MonteCarlo, SampleRow, Summary};
 pub use one_sector::{DESCRIBING_FUNCTION, MANY_HARMONICS, TravellingWave};

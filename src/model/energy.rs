@@ -80,16 +80,21 @@ impl OscillatorChain {
         kinetic + elastic + sliders
     }
 
+    /// `v^T (K - K^T)/2 x` pair by pair: exactly zero for a symmetric stiffness, and without a matrix of its own.
+    fn circulatory_power(&self, x: &[f64], v: &[f64]) -> f64 {
+        let (n, k) = (self.oscillators(), self.stiffness());
+        let pair = |i: usize, j: usize| (k[(i, j)] - k[(j, i)]) * (v[i] * x[j] - v[j] * x[i]);
+        (0..n).map(|i| (0..i).map(|j| 0.5 * pair(i, j)).sum::<f64>()).sum()
+    }
+
     /// Power fed in by damping, self-excitation and circulatory stiffness (friction and drive are left at zero: the one acts by slip, the other from outside).
     #[must_use]
     pub fn powers(&self, positions: &[f64], velocities: &[f64]) -> Works {
-        let x = DVector::from_column_slice(positions);
         let v = DVector::from_column_slice(velocities);
         Works {
             damping: -v.dot(&(self.damping() * &v)),
             self_excitation: -v.dot(&(self.self_excitation() * &v)),
-            // v^T (K - K^T)/2 x without forming the antisymmetric part.
-            circulatory: -0.5 * (v.dot(&(self.stiffness() * &x)) - x.dot(&(self.stiffness() * &v))),
+            circulatory: -self.circulatory_power(positions, velocities),
             friction: 0.0,
             drive: 0.0,
         }

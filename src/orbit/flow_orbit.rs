@@ -75,13 +75,13 @@ impl FlowOrbit {
         values
     }
 
-    /// The largest modulus among the multipliers over a full period without the trivial one.
+    /// The largest modulus among the multipliers over a full period, without the `neutral` ones nearest to 1: the one along the motion, and one
+    /// for every contact that never slips.
     #[must_use]
-    pub fn leading_multiplier(&self) -> f64 {
-        let values = self.multipliers();
-        let trivial = (0..values.len()).min_by(|&i, &j| (values[i] - 1.0).norm().total_cmp(&(values[j] - 1.0).norm()));
-        let others = values.iter().enumerate().filter(|(i, _)| Some(*i) != trivial).map(|(_, value)| value.norm());
-        others.fold(0.0, f64::max).powf(1.0 / self.closure.fraction)
+    pub fn leading_multiplier(&self, neutral: usize) -> f64 {
+        let mut values = self.multipliers();
+        values.sort_by(|a, b| (a - 1.0).norm().total_cmp(&(b - 1.0).norm()));
+        values.iter().skip(neutral).map(|value| value.norm()).fold(0.0, f64::max).powf(1.0 / self.closure.fraction)
     }
 }
 

@@ -3,14 +3,14 @@
 use crate::disk_exact::scattered;
 use nalgebra::{DMatrix, DVector};
 use stickslip::disk::{
-    DESCRIBING_FUNCTION, DiskError, MANY_HARMONICS, TravellingWave, largest_by_wave, ring_wave, strongest,
-    wave_amplitudes, wave_multipliers,
+    DESCRIBING_FUNCTION, DiskError, MANY_HARMONICS, TravellingWave, largest_by_wave, ring_wave, settled_cycle,
+    strongest, wave_amplitudes, wave_multipliers,
 };
 use stickslip::dynamics::{Sampling, State, TangentFlow};
 use stickslip::exact::SparseFlow;
 use stickslip::model::{
-    Aerodynamics, BladedDisk, ContactPlace, DiskSegments, FrictionContacts, InfluenceCoefficient, NodalDiameter,
-    RigParameters, Topology,
+    Aerodynamics, BladedDisk, ContactPlace, DiskSegments, FrictionContacts, InfluenceCoefficient, Mistuning,
+    NodalDiameter, RigParameters, Topology,
 };
 use stickslip::orbit::{SpatialClosure, shoot_flow};
 
@@ -170,6 +170,31 @@ fn stable_waves_stay_and_unstable_ones_give_way() {
         seen[usize::from(stays)] += 1;
     }
     assert!(seen[0] >= 1 && seen[1] >= 1, "both kinds should occur: {seen:?}");
+}
+
+#[test]
+fn a_mistuned_disk_settles_on_a_stable_cycle_with_unequal_blades() {
+    let mistuning = Some(Mistuning::Normal { standard_deviation: 0.02, seed: 3 });
+    let disk = BladedDisk { mistuning, ..ring(0.01, 0.06) };
+    let flow = SparseFlow::new(&disk.chain().unwrap());
+    let start = scattered(flow.chain(), 1.0);
+    let cycle = settled_cycle(&flow, N, &start, 3000.0).unwrap();
+    assert!(cycle.stable() && cycle.leading_multiplier > 0.5, "{}", cycle.leading_multiplier);
+    let (low, high) = cycle.amplitudes.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), a| (l.min(*a), h.max(*a)));
+    // Tuned blades are equal to 1e-11.
+    assert!(high > 1.005 * low, "{low} {high}");
+    // The motion itself stays there: largest displacements over ten more periods.
+    let at = State::from_components(cycle.orbit.state.as_slice(), flow.chain()).unwrap();
+    let mut largest = vec![0.0_f64; N];
+    let sampling = Sampling { interval: cycle.orbit.period / 256.0, t_end: 10.0 * cycle.orbit.period };
+    flow.observe(&at, sampling, |_, state, _| {
+        largest.iter_mut().zip(&state.positions).for_each(|(l, x)| *l = l.max(x.abs()));
+    })
+    .unwrap();
+    for (a, l) in cycle.amplitudes.iter().zip(&largest) {
+        // Peaks fall between samples: (pi/256)^2/2 of the amplitude at most.
+        assert!((0.0..1e-4).contains(&(a - l)), "{a} {l}");
+    }
 }
 
 /// The two-mass rig as two blades in an open chain.

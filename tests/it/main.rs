@@ -26,7 +26,12 @@ mod convergence;
 mod demonstration;
 mod derivatives;
 mod diagram;
+#[cfg(feature = "cli")]
+mod disk_cli;
+#[cfg(feature = "engine")]
+mod disk_engine;
 mod disk_exact;
+mod disk_flutter;
 mod disk_linear;
 mod disk_waves;
 mod doubling;

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// Exact motion of a chain with many oscillators and Jenkins elements; see the module head for method and error control.
 ///
-/// [`Self::solve`] keeps the whole motion, some 24 bytes per oscillator and event; long motions of large chains are better followed with
+/// [`Self::solve`] keeps the whole motion, some 50 bytes per oscillator and event; long motions of large chains are better followed with
 /// [`Self::advance`] and [`Self::observe`], which keep nothing.
 #[derive(Debug, Clone)]
 pub struct SparseFlow {

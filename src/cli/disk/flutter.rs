@@ -1,0 +1,97 @@
+//! `disk flutter`: probability of flutter and amplitudes under random mistuning.
+
+use super::super::Verdict;
+use super::super::common::{Common, Document, print};
+use super::super::plot::PlotArgs;
+use super::super::progress::Heartbeat;
+use crate::disk::{Fate, MonteCarlo, SampleRow, Summary};
+use crate::report::{Chart, Series, Style, Tint};
+use crate::store::{Existing, Origin, OutputDir};
+use clap::Args;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Monte Carlo over the random mistuning of a scene: linear flutter margins, fates and amplitudes of the exact motions.
+///
+/// With -o DIR finished samples are kept as they come: an interrupted run, killed ones included, goes on where it was and ends with the
+/// same files.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  stickslip disk flutter scenes/disk_mistuned.toml --samples 1000 -o flutter")]
+pub struct FlutterArgs {
+    scene: PathBuf,
+    #[arg(long, default_value_t = 1000)]
+    samples: usize,
+    /// Seed of the first sample; the others follow by one.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Length of each motion in periods 2 pi of a blade.
+    #[arg(long, default_value_t = 400.0, allow_hyphen_values = true)]
+    periods: f64,
+    /// Displacements at the start are uniform from minus this to this.
+    #[arg(long, default_value_t = 0.5, allow_hyphen_values = true)]
+    start: f64,
+    #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub fn run(args: &FlutterArgs) -> anyhow::Result<Verdict> {
+    args.plot.check(args.common.force)?;
+    let disk = super::load(&args.scene)?.0.disk;
+    let plan =
+        MonteCarlo { disk, samples: args.samples, first_seed: args.seed, periods: args.periods, start: args.start };
+    let parameters = json!(plan);
+    let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
+    let origin = Origin::new("disk flutter", parameters.clone());
+    let record = args.common.output.as_deref().map(|path| OutputDir::open(path, &origin, existing)).transpose()?;
+    let heartbeat = Heartbeat::new(args.common.quiet, "flutter", "disks");
+    let rows = plan.run(record.as_ref(), |done, all| heartbeat.at(done, all))?;
+    let summary = Summary::of(&rows);
+    if let Some(directory) = &record {
+        directory.write("samples.json", "", |file| {
+            serde_json::to_writer(&mut *file, &rows)?;
+            writeln!(file)
+        })?;
+    }
+    args.plot.draw(|| Ok(chart(&rows)))?;
+    if args.common.json {
+        let files = record.as_ref().map(OutputDir::files).unwrap_or_default();
+        let document =
+            Document::new("disk flutter", parameters).with("summary", json!(summary)).with("files", json!(files));
+        return print(&document.text()?).map(|()| Verdict::Done);
+    }
+    let Summary { fates, probability_of_linear_flutter: p, standard_error, .. } = &summary;
+    print(&format!("linear flutter in {:.1} +- {:.1} % of {} disks", 100.0 * p, 100.0 * standard_error, rows.len()))?;
+    print(&format!(
+        "stable {}, flutter held by friction {}, diverged {}",
+        fates.stable, fates.flutter, fates.diverged
+    ))?;
+    if let [low, _, median, _, high] = summary.amplitude_quantiles[..] {
+        print(&format!(
+            "largest amplitude of a blade in flutter: median {median:.4}, 5 to 95 %: {low:.4} to {high:.4}"
+        ))?;
+        print(&format!("{} of them had not settled to 1 %: lengthen --periods if that is many", summary.unsettled))?;
+    }
+    Ok(Verdict::Done)
+}
+
+/// Distribution functions of the largest and the mean amplitude of fluttering disks.
+fn chart(rows: &[SampleRow]) -> Chart {
+    let distribution = |label: &str, of: fn(&SampleRow) -> f64, tint| {
+        let mut values: Vec<f64> = rows.iter().filter(|row| row.fate == Fate::Flutter).map(of).collect();
+        values.sort_by(f64::total_cmp);
+        let count = values.len() as f64;
+        let points = values.iter().enumerate().map(|(i, v)| (*v, (i + 1) as f64 / count)).collect();
+        Series { label: label.to_owned(), points, style: Style::Line, tint }
+    };
+    Chart {
+        title: "Flutter amplitudes under random mistuning".to_owned(),
+        x_label: "amplitude".to_owned(),
+        y_label: "part of the fluttering disks below".to_owned(),
+        series: vec![
+            distribution("largest of all blades", |row| row.amplitude, Tint::Vermillion),
+            distribution("mean over the blades", |row| row.mean_amplitude, Tint::Blue),
+        ],
+    }
+}

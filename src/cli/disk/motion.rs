@@ -1,0 +1,150 @@
+//! `disk simulate`: the motion of a disk as amplitudes of its waves over time.
+
+use super::super::Verdict;
+use super::super::common::{Common, Document, print};
+use super::super::plot::PlotArgs;
+use super::super::simulate::refuse_to_overwrite;
+use crate::disk::{strongest, wave_amplitudes};
+use crate::dynamics::{Outcome, Sampling, State};
+use crate::exact::SparseFlow;
+use crate::model::{Mistuning, NodalDiameter, OscillatorChain, ParameterError, Topology};
+use crate::report::{Chart, Series, Style, Tint};
+use crate::scene::DiskCase;
+use crate::store::{Column, ColumnData, Table, write_table};
+use anyhow::ensure;
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+const MOST_SAMPLES: f64 = 1e7;
+/// Series of a chart: as many as there are colours.
+const TINTS: [Tint; 5] = [Tint::Blue, Tint::Orange, Tint::Green, Tint::Vermillion, Tint::Purple];
+
+/// The exact motion of the disk: amplitude of every wave over time, by nodal diameter (of a chain, by blade).
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  stickslip disk simulate scenes/disk_competition.toml -o waves.csv --plot waves.svg"
+)]
+pub struct MotionArgs {
+    scene: PathBuf,
+    /// Length of the motion; that of the scene without it.
+    #[arg(long, allow_hyphen_values = true)]
+    t_end: Option<f64>,
+    /// Time between two samples.
+    #[arg(long, value_name = "DT", default_value_t = 1.0, allow_hyphen_values = true)]
+    sample: f64,
+    #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
+    common: Common,
+}
+
+pub fn run(args: &MotionArgs) -> anyhow::Result<Verdict> {
+    args.plot.check(args.common.force)?;
+    let (case, duration) = super::load(&args.scene)?;
+    let chain = case.disk.chain()?;
+    let sampling = Sampling { interval: args.sample, t_end: args.t_end.unwrap_or(duration) };
+    let samples = sampling.t_end / sampling.interval * case.disk.sectors as f64;
+    ensure!(
+        samples <= MOST_SAMPLES,
+        "--sample {} gives {samples:e} numbers, allowed are {MOST_SAMPLES:e}: take a longer one",
+        args.sample
+    );
+    let parameters = json!({"disk": case.disk, "start": case.start, "sampling": sampling});
+    if let Some(path) = &args.common.output {
+        refuse_to_overwrite(path, &parameters, args.common.force)?;
+    }
+    let ring = case.disk.topology == Topology::Ring;
+    let blades = case.disk.sectors;
+    let (mut times, mut rows) = (Vec::new(), Vec::new());
+    let seen = |state: &State| match ring {
+        true => wave_amplitudes(state, blades, 1.0),
+        false => (0..blades).map(|j| state.positions[j].hypot(state.velocities[j])).collect(),
+    };
+    let arrival = SparseFlow::new(&chain).observe(&start(&case, &chain)?, sampling, |t, state, _| {
+        times.push(t);
+        rows.push(seen(state));
+    })?;
+    if let Some(path) = &args.common.output {
+        write_table(path, &table(&times, &rows, ring, &parameters))?;
+    }
+    args.plot.draw(|| Ok(chart(&times, &rows, ring)))?;
+    let last = rows.last().cloned().unwrap_or_default();
+    let diverged = arrival.outcome != Outcome::Completed;
+    let winner = ring.then(|| strongest(&last).signed());
+    if args.common.json {
+        let document = Document::new("disk simulate", parameters)
+            .with("final", json!({"t": times.last(), "amplitudes": last, "strongest_nodal_diameter": winner}))
+            .with("events", json!(arrival.switches))
+            .with("diverged", json!(diverged));
+        return print(&document.text()?).map(|()| Verdict::Done);
+    }
+    let end = if diverged { "diverged" } else { "completed" };
+    print(&format!("{end}, {} changes of contact state", arrival.switches))?;
+    if let Some(n) = winner {
+        print(&format!("strongest wave at the end: nodal diameter {n}"))?;
+    }
+    Ok(Verdict::Done)
+}
+
+/// The state a disk starts from.
+pub fn start(case: &DiskCase, chain: &OscillatorChain) -> Result<State, ParameterError> {
+    let n = case.disk.sectors;
+    let mut state = State::rest(chain);
+    if case.start.noise > 0.0 {
+        let noise = Mistuning::Uniform { half_width: case.start.noise, seed: case.start.seed };
+        state.positions[..n].copy_from_slice(&noise.deviations(n)?);
+    }
+    for wave in &case.start.waves {
+        let number = NodalDiameter::new(wave.nodal_diameter, n);
+        for j in 0..n {
+            let angle = wave.phase - number.multiple(j as i64);
+            state.positions[j] += wave.amplitude * angle.cos();
+            state.velocities[j] -= wave.amplitude * angle.sin();
+        }
+    }
+    Ok(state)
+}
+
+/// Columns in the order of wave number, forward and backward in turn; of a chain in the order of blades.
+fn order(count: usize, ring: bool) -> Vec<(usize, String)> {
+    match ring {
+        true => NodalDiameter::all(count).map(|wave| (wave.index(), format!("wave {:+}", wave.signed()))).collect(),
+        false => (0..count).map(|j| (j, format!("blade {j}"))).collect(),
+    }
+}
+
+fn table(times: &[f64], rows: &[Vec<f64>], ring: bool, parameters: &Value) -> Table {
+    let column = |name: &str, values| Column { name: name.to_owned(), unit: "1".to_owned(), values };
+    let of = |i: usize| ColumnData::F64(rows.iter().map(|row| row[i]).collect());
+    let count = rows.first().map_or(0, Vec::len);
+    let mut columns = vec![column("t", ColumnData::F64(times.to_vec()))];
+    columns.extend(order(count, ring).into_iter().map(|(i, name)| column(&name, of(i))));
+    Table {
+        metadata: vec![
+            ("stickslip".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
+            ("parameters".to_owned(), parameters.to_string()),
+        ],
+        columns,
+    }
+}
+
+/// The waves or blades that reach the largest amplitudes.
+fn chart(times: &[f64], rows: &[Vec<f64>], ring: bool) -> Chart {
+    let count = rows.first().map_or(0, Vec::len);
+    let largest = |i: usize| rows.iter().map(|row| row[i]).fold(0.0, f64::max);
+    let mut shown = order(count, ring);
+    shown.sort_by(|a, b| largest(b.0).total_cmp(&largest(a.0)));
+    let series = shown.into_iter().zip(TINTS).map(|((i, label), tint)| Series {
+        label,
+        points: times.iter().zip(rows).map(|(t, row)| (*t, row[i])).collect(),
+        style: Style::Line,
+        tint,
+    });
+    Chart {
+        title: if ring { "Amplitudes of the waves" } else { "Amplitudes of the blades" }.to_owned(),
+        x_label: "time".to_owned(),
+        y_label: "amplitude".to_owned(),
+        series: series.collect(),
+    }
+}

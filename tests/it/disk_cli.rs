@@ -1,0 +1,86 @@
+//! The commands about bladed disks as a user meets them.
+
+use crate::cli::{document, refused};
+use assert_cmd::cargo::cargo_bin;
+use std::f64::consts::PI;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+fn scene(name: &str) -> String {
+    format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn modes_of_a_ring_are_its_waves_and_of_the_rig_its_two() {
+    let json = document(&["modes", &scene("disk_forward_wave"), "--json"]);
+    let modes = json["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 12);
+    let of = |n: i64| modes.iter().find(|mode| mode["nodal_diameter"] == n).unwrap();
+    for n in -5..=6_i64 {
+        let w = of(n)["angular_frequency"].as_f64().unwrap();
+        // The air moves frequencies by the square of its damping, 0.05^2/8 at most.
+        let sticking = (1.0 + 4.0 * 0.1 * (PI * n as f64 / 12.0).sin().powi(2)).sqrt();
+        assert!((w - sticking).abs() < 4e-4, "{n}: {w} {sticking}");
+    }
+    assert_eq!((&of(3)["direction"], &of(-3)["direction"]), (&"forward".into(), &"backward".into()));
+    assert_eq!(of(6)["direction"], "standing");
+    assert_eq!(json["flutter_margin"], of(3)["damping"]);
+    let rig = document(&["modes", &scene("limit_cycle"), "--json"]);
+    assert!(rig["modes"][0]["nodal_diameter"].is_null());
+    assert!((rig["modes"][0]["damping"].as_f64().unwrap() + 0.03).abs() < 1e-12);
+}
+
+#[test]
+fn disk_scenes_are_for_disk_commands_and_the_others_for_the_rig() {
+    refused(&["simulate", "--scene", &scene("disk_mistuned")], &["bladed disk", "modes"]);
+    refused(&["disk", "waves", &scene("limit_cycle")], &["two-mass rig", "[disk]"]);
+    refused(&["disk", "flutter", &scene("disk_forward_wave")], &["mistuning", "normal"]);
+    refused(&["disk", "waves", &scene("chain_100")], &["ring"]);
+}
+
+#[test]
+fn waves_and_motions_are_printed_and_written() {
+    let json = document(&["disk", "waves", &scene("disk_forward_wave"), "--json"]);
+    let waves = json["waves"].as_array().unwrap();
+    let stable: Vec<i64> = waves
+        .iter()
+        .filter(|wave| wave["limit_cycle"]["stable"] == true)
+        .map(|wave| wave["nodal_diameter"].as_i64().unwrap())
+        .collect();
+    // The wave with the strongest excitation is stable, backward waves have no cycle.
+    assert!(stable.contains(&3), "{stable:?}");
+    assert!(waves.iter().all(|wave| wave["nodal_diameter"].as_i64() >= Some(0) || wave["limit_cycle"].is_null()));
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let args = ["disk", "simulate", &scene("disk_competition"), "--t-end", "300", "--json", "-o", &path("w.csv")];
+    let json = document(&[&args[..], &["--plot", &path("w.svg")]].concat());
+    assert_eq!(json["final"]["amplitudes"].as_array().unwrap().len(), 12);
+    assert!(folder.path().join("w.csv").exists() && folder.path().join("w.svg").exists());
+}
+
+fn flutter(folder: &Path) -> Command {
+    let mut command = Command::new(cargo_bin("stickslip"));
+    command.args(["disk", "flutter", &scene("disk_mistuned"), "--samples", "60", "--periods", "60", "-q", "-o"]);
+    command.arg(folder).stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
+#[test]
+fn a_killed_monte_carlo_goes_on_to_the_same_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let [killed, whole] = ["killed", "whole"].map(|name| folder.path().join(name));
+    let mut child = flutter(&killed).spawn().unwrap();
+    // Killed as soon as a block is there; with SIGKILL nothing can be put in order.
+    let blocks = || std::fs::read_dir(killed.join("samples")).map_or(0, Iterator::count);
+    while blocks() < 1 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!killed.join("samples.json").exists(), "it was to be killed before its end");
+    assert!(flutter(&killed).status().unwrap().success());
+    assert!(flutter(&whole).status().unwrap().success());
+    let bytes = |folder: &Path| std::fs::read(folder.join("samples.json")).unwrap();
+    assert_eq!(bytes(&killed), bytes(&whole));
+}

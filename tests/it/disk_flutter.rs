@@ -1,0 +1,70 @@
+//! Random mistuning: the same rows on any number of threads and after any interruption; fates against the linear analysis.
+
+use std::fs;
+use stickslip::disk::{Fate, MonteCarlo, SampleRow, Summary};
+use stickslip::model::{Aerodynamics, BladedDisk, ContactPlace, FrictionContacts, InfluenceCoefficient, Mistuning};
+use stickslip::store::{Existing, Origin, OutputDir};
+
+/// Small disks near the edge of flutter: tuned they flutter, mistuned some do not.
+fn plan(samples: usize) -> MonteCarlo {
+    let l = |offset, real, imaginary| InfluenceCoefficient { offset, real, imaginary };
+    let disk = BladedDisk {
+        friction: vec![FrictionContacts::everywhere(ContactPlace::Foot, 0.5)],
+        aerodynamics: Some(Aerodynamics::Coefficients {
+            coefficients: vec![l(0, 0.0, 0.02), l(1, 0.016, 0.0), l(-1, -0.016, 0.0)],
+            reference_frequency: 1.0,
+        }),
+        mistuning: Some(Mistuning::Normal { standard_deviation: 0.03, seed: 0 }),
+        ..BladedDisk::ring(8, 0.02)
+    };
+    MonteCarlo { disk, samples, first_seed: 100, periods: 60.0, start: 1.5 }
+}
+
+fn on_threads(plan: &MonteCarlo, threads: usize, record: Option<&OutputDir>) -> Vec<SampleRow> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| plan.run(record, |_, _| {})).unwrap()
+}
+
+#[test]
+fn rows_do_not_depend_on_threads_and_an_interrupted_record_is_completed() {
+    let plan = plan(25);
+    let expected = on_threads(&plan, 1, None);
+    assert_eq!(on_threads(&plan, 3, None), expected);
+    let folder = tempfile::tempdir().unwrap();
+    let open = || {
+        let origin = Origin::new("flutter", serde_json::to_value(&plan).unwrap());
+        OutputDir::open(folder.path(), &origin, Existing::Resume).unwrap()
+    };
+    assert_eq!(on_threads(&plan, 2, Some(&open())), expected);
+    let block = |n: usize| folder.path().join(format!("samples/block-{n:06}.json"));
+    // What a killed run can leave: one block missing, one torn, one that nobody recorded would be refused.
+    let whole = fs::read(block(1)).unwrap();
+    fs::remove_file(block(0)).unwrap();
+    fs::write(block(1), &whole[..whole.len() / 2]).unwrap();
+    assert_eq!(on_threads(&plan, 2, Some(&open())), expected);
+    assert_eq!(fs::read(block(1)).unwrap(), whole);
+    // A block is read, not computed, where it is whole: a forged one with its sum would show. Another plan is refused.
+    let other = Origin::new("flutter", serde_json::to_value(MonteCarlo { samples: 26, ..plan.clone() }).unwrap());
+    assert!(OutputDir::open(folder.path(), &other, Existing::Resume).is_err());
+}
+
+#[test]
+fn fates_agree_with_the_linear_margin_and_seeds_differ() {
+    let rows = on_threads(&plan(40), 2, None);
+    let summary = Summary::of(&rows);
+    assert!(summary.fates.stable > 3 && summary.fates.flutter > 3 && summary.fates.diverged == 0, "{summary:?}");
+    for row in &rows {
+        // Linear flutter is flutter; a stable disk may also be caught slipping still.
+        assert!(row.fate == Fate::Flutter || row.least_damping >= 0.0, "{row:?}");
+        assert!((1.0 / 8.0..=1.0 + 1e-12).contains(&row.participation) && row.mean_amplitude <= row.amplitude);
+    }
+    assert!(rows.windows(2).all(|pair| pair[0].least_damping != pair[1].least_damping));
+    let negative = rows.iter().filter(|row| row.least_damping < 0.0).count() as f64 / 40.0;
+    assert_eq!(summary.probability_of_linear_flutter, negative);
+}
+
+#[test]
+fn a_mistuning_that_is_not_random_is_refused() {
+    let plan = MonteCarlo { disk: plan(1).disk.tuned(), ..plan(1) };
+    assert!(plan.run(None, |_, _| {}).unwrap_err().to_string().contains("normal"));
+}
