@@ -18,6 +18,7 @@ mod progress;
 mod render;
 mod run;
 mod simulate;
+mod story;
 mod trajectory_table;
 
 use clap::{Parser, Subcommand};

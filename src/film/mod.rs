@@ -19,11 +19,13 @@ mod settings;
 mod yuv;
 
 pub use error::{FilmError, SourceError};
+pub use picture::encode as encode_png;
 pub use pipeline::produce;
 pub use report::{FilmReport, Progress, StageTimes};
 pub use settings::{FilmSettings, Video};
 
 use crate::render::DrawList;
+use serde::Serialize;
 
 /// Frames as drawing lists.
 pub trait FrameSource: Sync {
@@ -35,4 +37,20 @@ pub trait FrameSource: Sync {
     /// # Errors
     /// Whatever keeps the frame from being built; reported as [`FilmError::Source`].
     fn frame(&self, index: u64) -> Result<DrawList, SourceError>;
+
+    /// What the frame at `index < count()` shows, for the manifest.
+    fn state(&self, _index: u64) -> Option<FrameState> {
+        None
+    }
+}
+
+/// See [`FrameSource::state`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameState {
+    /// Time of the motion, in its own units.
+    #[serde(rename = "motion_time")]
+    pub time: f64,
+    /// SHA-256 of the state that is drawn.
+    #[serde(rename = "state_sha256")]
+    pub sha256: String,
 }

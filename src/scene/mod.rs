@@ -5,12 +5,14 @@ mod description;
 mod direction;
 mod error;
 mod load;
+mod story;
 
 pub use case::Case;
 pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation, Theme};
-pub use direction::{Direction, Panel};
+pub use direction::{CameraMove, Caption, Direction, Easing, Key, Panel, SlowMotion, View};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;
+pub use story::Story;
 
 impl Scene {
     /// JSON Schema of scene files.
