@@ -41,7 +41,8 @@ pub struct DrawArgs {
     pub frames: Option<Range<u64>>,
 }
 
-fn parse_frames(text: &str) -> Result<Range<u64>, String> {
+/// `A:B`
+pub fn parse_frames(text: &str) -> Result<Range<u64>, String> {
     match text.split_once(':').map(|(a, b)| (a.parse(), b.parse())) {
         Some((Ok(a), Ok(b))) if a < b => Ok(a..b),
         _ => Err("give two whole numbers A:B from 0, A smaller than B".to_owned()),

@@ -7,11 +7,13 @@ mod common;
 mod damping_map;
 mod diagram;
 mod film;
+mod gallery;
 mod generate;
 mod hopf;
 mod lyapunov;
 mod motions;
 mod orbit;
+mod pictures;
 mod plot;
 mod poincare;
 mod progress;
@@ -43,6 +45,9 @@ enum Command {
     Run(run::RunArgs),
     Simulate(simulate::SimulateArgs),
     Render(render::RenderArgs),
+    ContactSheet(pictures::ContactSheetArgs),
+    Animate(pictures::AnimateArgs),
+    Gallery(gallery::GalleryArgs),
     Orbit(orbit::OrbitArgs),
     Branch(branch::BranchArgs),
     Hopf(hopf::HopfArgs),
@@ -87,6 +92,9 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::ContactSheet(args) => pictures::sheet(&args),
+        Command::Animate(args) => pictures::animate(&args),
+        Command::Gallery(args) => gallery::run(&args),
         Command::Orbit(args) => orbit::run(&args),
         Command::Branch(args) => branch::run(&args),
         Command::Hopf(args) => hopf::run(&args),

@@ -8,6 +8,7 @@
 //! device, and its bytes still have the SHA-256 recorded there. Anything else is drawn again. The bytes of frames and film depend on the
 //! parameters, the device and this program's version only: neither on threads nor on interruptions.
 
+mod animation;
 mod encode;
 mod error;
 mod manifest;
@@ -18,6 +19,7 @@ mod report;
 mod settings;
 mod yuv;
 
+pub use animation::{animated_png, contact_sheet, gif, scaled};
 pub use error::{FilmError, SourceError};
 pub use picture::encode as encode_png;
 pub use pipeline::produce;

@@ -424,4 +424,14 @@ fn a_story_is_filmed_scene_by_scene_and_its_manifest_says_what_each_frame_shows(
     assert_eq!([brightest(12), brightest(13)], [0, 0]);
     assert!(brightest(6) > 100 && brightest(0) > 200);
     refused(&["run", "--story", story, "--xi1", "-0.1"], &["--xi1"]);
+    let (sheet, film) = (folder.path().join("sheet.png"), folder.path().join("loop.gif"));
+    let (sheet, film) = (sheet.to_str().unwrap(), film.to_str().unwrap());
+    let made = |args: &[&str]| assert!(stickslip(args).status.success(), "{args:?}");
+    made(&["contact-sheet", directory, "--count", "6", "--columns", "3", "--width", "128", "-o", sheet]);
+    assert_eq!(image::open(sheet).unwrap().to_rgb8().dimensions(), (3 * 136 + 8, 2 * 80 + 8));
+    made(&["animate", directory, "--frames", "2:10", "--every", "2", "--width", "64", "-o", film]);
+    assert_eq!(image::open(film).unwrap().to_rgb8().dimensions(), (64, 36));
+    refused(&["animate", directory, "--frames", "2:99", "-o", film], &["20 frames"]);
+    refused(&["animate", directory, "-o", "film.avi"], &[".gif"]);
+    refused(&["contact-sheet", folder.path().to_str().unwrap()], &["manifest"]);
 }

@@ -139,7 +139,7 @@ impl Energy {
 fn written(value: f64, with_power: bool) -> String {
     let text = if with_power { format!("{value:+.1e}") } else { format!("{value:+.3}") };
     // A sign before nothing says nothing.
-    if text == "-0.000" {
+    if text == "-0.000" || text == "+0.000" {
         return "0.000".to_owned();
     }
     text.replace('-', "−")
