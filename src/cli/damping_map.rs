@@ -19,7 +19,7 @@ const HIGHEST: f64 = 3.5;
 
 /// The diagram around a case, where its film shows one. Where it cannot be computed the panel stays without it, and a line says why.
 pub fn of(case: &Case, progress: &Progress) -> anyhow::Result<Option<DampingMap>> {
-    if case.prescribed.is_some() || !case.direction.panels().contains(&Panel::Map) {
+    if case.prescribed.is_some() || !case.panels().contains(&Panel::Map) {
         return Ok(None);
     }
     match compute(case.parameters) {

@@ -3,13 +3,14 @@
 use super::progress::Progress;
 use crate::dynamics::Trajectory;
 use crate::engine::{BodyPose, BodyRole, Recording, RigGeometry};
-use crate::film::{self, FilmReport, FilmSettings, FrameSource, SourceError, Video};
-use crate::render::{AdapterInfo, DrawList, RendererChoice};
-use crate::scene::Case;
+use crate::film::{self, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
+use crate::render::{AdapterInfo, Colour, DrawList, OverlayItem, Rectangle, Renderer, RendererChoice};
+use crate::scene::{Case, Film};
 use crate::stage::{Beside, Body, Motion, Stage};
-use crate::store::OutputDir;
+use crate::store::{OutputDir, sha256_hex};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
+use glam::Vec2;
 use serde_json::{Value, json};
 use std::ops::Range;
 
@@ -40,7 +41,8 @@ pub struct DrawArgs {
     pub frames: Option<Range<u64>>,
 }
 
-fn parse_frames(text: &str) -> Result<Range<u64>, String> {
+/// `A:B`
+pub fn parse_frames(text: &str) -> Result<Range<u64>, String> {
     match text.split_once(':').map(|(a, b)| (a.parse(), b.parse())) {
         Some((Ok(a), Ok(b))) if a < b => Ok(a..b),
         _ => Err("give two whole numbers A:B from 0, A smaller than B".to_owned()),
@@ -70,15 +72,63 @@ impl RendererName {
     }
 }
 
-struct Source(Stage);
+/// Frames over which one scene of a story fades out and the next one in.
+const FADE: u64 = 9;
+
+/// The stages of a film, one after the other.
+struct Source {
+    stages: Vec<Stage>,
+    size: [u32; 2],
+}
+
+impl Source {
+    /// The stage of a frame of the film, and the frame's number in it.
+    fn locate(&self, index: u64) -> Option<(&Stage, u64)> {
+        let mut first = 0;
+        self.stages.iter().find_map(|stage| {
+            let number = index.checked_sub(first)?;
+            first += stage.frame_count();
+            (index < first).then_some((stage, number))
+        })
+    }
+
+    /// How dark a frame is beside a cut, 0 to 1. A film of one stage has no cut.
+    fn darkness(&self, stage: &Stage, number: u64, index: u64) -> f32 {
+        let to_end = stage.frame_count() - 1 - number;
+        let before = if index == number { FADE } else { number };
+        let after = if index + to_end + 1 == self.count() { FADE } else { to_end };
+        1.0 - before.min(after).min(FADE) as f32 / FADE as f32
+    }
+}
 
 impl FrameSource for Source {
     fn count(&self) -> u64 {
-        self.0.frame_count()
+        self.stages.iter().map(Stage::frame_count).sum()
     }
 
     fn frame(&self, index: u64) -> Result<DrawList, SourceError> {
-        Ok(self.0.frame(index))
+        let (stage, number) = self.locate(index).ok_or("the film has fewer frames")?;
+        let mut list = stage.frame(number);
+        let darkness = self.darkness(stage, number, index);
+        if darkness > 0.0 {
+            let [width, height] = self.size.map(|side| side as f32);
+            list.overlay.push(OverlayItem::Box {
+                area: Rectangle { min: Vec2::ZERO, max: Vec2::new(width, height) },
+                corner_radius: 0.0,
+                fill: Colour::rgb(0).with_alpha(darkness),
+                stroke: None,
+            });
+        }
+        Ok(list)
+    }
+
+    fn state(&self, index: u64) -> Option<FrameState> {
+        let (stage, number) = self.locate(index)?;
+        let now = stage.instant(number);
+        let [[x1, x2], [v1, v2]] = [now.positions, now.velocities];
+        let bytes: Vec<u8> =
+            [now.time, x1, x2, v1, v2, now.slider_force].into_iter().flat_map(f64::to_le_bytes).collect();
+        Some(FrameState { time: now.time, sha256: sha256_hex(&bytes) })
     }
 }
 
@@ -129,23 +179,35 @@ fn carriages(poses: &[BodyPose]) -> Option<[Body; 2]> {
     Some([carriage(0)?, carriage(1)?])
 }
 
-/// Draws the frames that are missing and makes the film.
+/// A case with its motion, ready to be drawn.
+pub fn stage(case: &Case, shown: Shown, progress: &Progress) -> anyhow::Result<Stage> {
+    let map = super::damping_map::of(case, progress)?;
+    Ok(Stage::new(case.clone(), shown.motion, Beside { exact: shown.reference, map }))
+}
+
+/// Opens what draws, and says which it is.
+pub fn renderer(args: &DrawArgs, progress: &Progress) -> anyhow::Result<Box<dyn Renderer>> {
+    let renderer = crate::render::open(args.renderer.choice())?;
+    let adapter = renderer.info();
+    progress.say(&format!("renderer: {} ({}): {}", adapter.adapter, adapter.backend, adapter.reason));
+    Ok(renderer)
+}
+
+/// Draws the frames of the stages that are missing, one stage after the other, and makes the film.
 pub fn make(
-    case: &Case,
-    shown: Shown,
+    stages: Vec<Stage>,
+    film: &Film,
     args: &DrawArgs,
     output: &OutputDir,
     progress: &mut Progress,
 ) -> anyhow::Result<Made> {
-    let map = super::damping_map::of(case, progress)?;
-    let source = Source(Stage::new(case.clone(), shown.motion, Beside { exact: shown.reference, map }));
+    let source = Source { stages, size: [film.width, film.height] };
     args.check(source.count())?;
-    let mut renderer = crate::render::open(args.renderer.choice())?;
+    let mut renderer = renderer(args, progress)?;
     let adapter = renderer.info().clone();
-    progress.say(&format!("renderer: {} ({}): {}", adapter.adapter, adapter.backend, adapter.reason));
     let settings = FilmSettings {
-        size: [case.film.width, case.film.height],
-        frames_per_second: case.film.fps,
+        size: source.size,
+        frames_per_second: film.fps,
         frames: args.frames.clone(),
         video: if args.frames.is_some() { Video::None } else { Video::Whole },
         ..FilmSettings::default()

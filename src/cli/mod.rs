@@ -9,6 +9,7 @@ mod damping_map;
 mod diagram;
 mod disk;
 mod film;
+mod gallery;
 mod generate;
 mod hopf;
 mod lyapunov;
@@ -16,12 +17,14 @@ mod modes;
 mod motions;
 mod orbit;
 mod paper;
+mod pictures;
 mod plot;
 mod poincare;
 mod progress;
 mod render;
 mod run;
 mod simulate;
+mod story;
 mod trajectory_table;
 
 use clap::{Parser, Subcommand};
@@ -46,6 +49,9 @@ enum Command {
     Run(run::RunArgs),
     Simulate(simulate::SimulateArgs),
     Render(render::RenderArgs),
+    ContactSheet(pictures::ContactSheetArgs),
+    Animate(pictures::AnimateArgs),
+    Gallery(gallery::GalleryArgs),
     Orbit(orbit::OrbitArgs),
     Branch(branch::BranchArgs),
     Hopf(hopf::HopfArgs),
@@ -94,6 +100,9 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::ContactSheet(args) => pictures::sheet(&args),
+        Command::Animate(args) => pictures::animate(&args),
+        Command::Gallery(args) => gallery::run(&args),
         Command::Orbit(args) => orbit::run(&args),
         Command::Branch(args) => branch::run(&args),
         Command::Hopf(args) => hopf::run(&args),

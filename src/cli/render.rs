@@ -7,8 +7,9 @@ use super::progress::Progress;
 use super::run::default_directory;
 use super::trajectory_table::from_table;
 use super::{Verdict, motions};
+use crate::film::encode_png;
 use crate::scene::{Case, Film};
-use crate::store::{Existing, Origin, OutputDir, read_table, read_whole, sha256_hex};
+use crate::store::{Existing, Origin, OutputDir, read_table, read_whole, sha256_hex, write_atomically};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -26,7 +27,8 @@ enum Solver {
 /// Make frames and film of a scene or a stored trajectory. Finished frames are kept and not drawn again.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  stickslip render scenes/chaos.toml --with exact -o renders/chaos\n  \
-    stickslip simulate --xi1 -0.1 --sample 0.04 -o t.csv && stickslip render --trajectory t.csv -o renders/t")]
+    stickslip simulate --xi1 -0.1 --sample 0.04 -o t.csv && stickslip render --trajectory t.csv -o renders/t\n  \
+    stickslip render scenes/chaos.toml --at 42.5 --size 3840x2160 -o chaos.png")]
 pub struct RenderArgs {
     #[command(flatten)]
     input: SceneArgs,
@@ -36,6 +38,9 @@ pub struct RenderArgs {
     /// Which solution to show.
     #[arg(long = "with", id = "solver", value_enum, default_value_t = Solver::Rapier)]
     solver: Solver,
+    /// Draw only the picture at this time of the motion, in the units of the scene, and write it to -o.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, conflicts_with = "frames")]
+    at: Option<f64>,
     #[command(flatten)]
     draw: DrawArgs,
     #[command(flatten)]
@@ -48,6 +53,9 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         Some(path) => args.stored(path)?,
         None => args.computed()?,
     };
+    if let Some(time) = args.at {
+        return args.still(&case, shown, time, &progress);
+    }
     args.draw.check(case.frame_count())?;
     let solver = match (&args.trajectory, args.solver) {
         (Some(_), _) => "stored",
@@ -63,7 +71,8 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         json!({ "case": case, "with": solver, "trajectory": args.trajectory, "trajectory_sha256": stored });
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
-    let made = film::make(&case, shown, &args.draw, &output, &mut progress)?;
+    let stage = film::stage(&case, shown, &progress)?;
+    let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
     if args.common.json {
         let document =
             Document::new("render", parameters).with("frames", made.frames_json()).with("files", json!(output.files()));
@@ -75,6 +84,34 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
 }
 
 impl RenderArgs {
+    /// `--at`: one picture.
+    fn still(&self, case: &Case, shown: Shown, time: f64, progress: &Progress) -> anyhow::Result<Verdict> {
+        let path = self.common.output.as_deref().context("--at needs -o FILE.png: where the picture goes")?;
+        ensure!(
+            path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")),
+            "{} is no PNG file: end its name in .png",
+            path.display()
+        );
+        ensure!(self.common.force || !path.exists(), "{} exists: replace it with --force", path.display());
+        let (stage, scale) = (film::stage(case, shown, progress)?, case.scales.time);
+        ensure!(
+            (0.0..=stage.end()).contains(&(time / scale)),
+            "--at {time} is not in the motion: it lasts from 0 to {}",
+            stage.end() * scale
+        );
+        let mut renderer = film::renderer(&self.draw, progress)?;
+        let (image, _) = renderer.draw(&stage.frame_at(time / scale))?;
+        let bytes = encode_png(&image).context("the picture could not be encoded")?;
+        write_atomically(path, |writer| Ok(writer.write_all(&bytes)?))?;
+        if self.common.json {
+            let parameters = json!({ "case": case, "at": time });
+            print(&Document::new("render", parameters).with("files", json!([path])).text()?)?;
+        } else {
+            print(&path.display().to_string())?;
+        }
+        Ok(Verdict::Done)
+    }
+
     fn computed(&self) -> anyhow::Result<(Case, Shown)> {
         let case = self.input.case()?;
         let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));

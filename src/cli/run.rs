@@ -21,15 +21,18 @@ use std::path::{Path, PathBuf};
 /// Writes frames, film.mp4, both trajectories and run.json. A second run resumes: finished frames are not drawn again.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  stickslip run\n  stickslip run scenes/chaos.toml -o renders/chaos\n  \
-    stickslip run --xi1 -0.1 --t-end 400 -o renders/stronger\n\n\
+    stickslip run --xi1 -0.1 --t-end 400 -o renders/stronger\n  stickslip run --story\n\n\
     Exit status 1: engine and exact solution disagree; the films and numbers are there all the same.")]
 pub struct RunArgs {
     #[command(flatten)]
-    input: SceneArgs,
+    pub input: SceneArgs,
+    /// Film the scenes of a story one after the other; the built-in one, a minute long, without a file.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "xi1", "xi2", "kappa", "gamma", "precision", "joints", "scheme", "substeps", "steps_per_period", "dt", "t_end", "speed"])]
+    pub story: Option<Option<PathBuf>>,
     #[command(flatten)]
-    draw: DrawArgs,
+    pub draw: DrawArgs,
     #[command(flatten)]
-    common: Common,
+    pub common: Common,
 }
 
 /// `renders/` and the name of the input with a suffix.
@@ -38,89 +41,113 @@ pub fn default_directory(input: Option<&Path>, suffix: &str) -> PathBuf {
     Path::new("renders").join(format!("{name}{suffix}"))
 }
 
+/// A case simulated in the engine and compared with the exact solution.
+pub struct Checked {
+    settings: EngineSettings,
+    recording: Recording,
+    exact: Trajectory,
+    pub agreement: Agreement,
+}
+
+impl Checked {
+    /// All that decides the result.
+    pub fn parameters(case: &Case) -> Value {
+        let sampling = motions::film_sampling(case);
+        json!({ "case": case, "engine": motions::engine_settings(case, sampling), "sampling": sampling })
+    }
+
+    pub fn new(case: &Case) -> anyhow::Result<Self> {
+        let sampling = motions::film_sampling(case);
+        let settings = motions::engine_settings(case, sampling);
+        let start = motions::start(case)?;
+        let recording = motions::in_engine(case, &start, sampling)?;
+        let exact = motions::exactly(case, &start, sampling)?;
+        let expected = motions::expectation(case, &settings, &recording)?;
+        let agreement = compare(&exact, &recording.trajectory, &expected)?;
+        Ok(Self { settings, recording, exact, agreement })
+    }
+
+    /// The engine's motion, the exact one beside it.
+    pub fn shown(&self) -> anyhow::Result<Shown> {
+        Ok(Shown::of_engine(&self.recording)?.beside(&self.exact))
+    }
+
+    /// `engine.csv` and `exact.csv`, their names after `prefix`.
+    pub fn write_trajectories(&self, case: &Case, output: &OutputDir, prefix: &str) -> anyhow::Result<()> {
+        let solver = motions::engine_info(&self.settings).to_string();
+        for (name, trajectory, solver) in
+            [("engine.csv", &self.recording.trajectory, solver.as_str()), ("exact.csv", &self.exact, "exact")]
+        {
+            let provenance = Provenance { case, solver, parameters: Self::parameters(case) };
+            let table = to_table(trajectory, &provenance, &case.scales)?;
+            output.write(&format!("{prefix}{name}"), "", |writer| table.write_to(TableFormat::Csv, writer))?;
+        }
+        Ok(())
+    }
+
+    pub fn engine_json(&self) -> Value {
+        let (settings, recording) = (&self.settings, &self.recording);
+        let info = motions::engine_info(settings);
+        json!({
+            "name": info.name, "version": info.version, "precision": settings.precision.word(), "joints": settings.joints.word(),
+            "scheme": settings.scheme, "substeps": settings.substeps, "dt": settings.step, "steps": recording.steps,
+            "joint_drift": recording.drift, "outcome": recording.trajectory.outcome,
+            "trajectory_sha256": crate::engine::trajectory_hash(&recording.trajectory),
+        })
+    }
+
+    pub fn verdict_line(&self) -> String {
+        format!(
+            "{}: {} steps of {:.3e}, agreement with the exact solution {}",
+            motions::engine_info(&self.settings),
+            self.recording.steps,
+            self.settings.step,
+            if self.agreement.passed { "passed" } else { "FAILED" }
+        )
+    }
+}
+
 pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
+    if let Some(story) = &args.story {
+        return super::story::run(args, story.as_deref());
+    }
     let mut progress = Progress::new(args.common.quiet);
     let case = args.input.case()?;
     args.draw.check(case.frame_count())?;
-    let sampling = motions::film_sampling(&case);
-    let settings = motions::engine_settings(&case, sampling);
-    let parameters = json!({ "case": case, "engine": settings, "sampling": sampling });
+    let parameters = Checked::parameters(&case);
     let directory = args.common.output.clone().unwrap_or_else(|| default_directory(args.input.scene.as_deref(), ""));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("run", parameters.clone()), existing)?;
 
-    let start = motions::start(&case)?;
-    let recording = motions::in_engine(&case, &start, sampling)?;
-    let exact = motions::exactly(&case, &start, sampling)?;
-    let expected = motions::expectation(&case, &settings, &recording)?;
-    let agreement = compare(&exact, &recording.trajectory, &expected)?;
-    progress.say(&verdict_line(&settings, &recording, &agreement));
-    let solver = motions::engine_info(&settings).to_string();
-    write_trajectory(&output, "engine.csv", &recording.trajectory, &case, &solver, &parameters)?;
-    write_trajectory(&output, "exact.csv", &exact, &case, "exact", &parameters)?;
-
-    let shown = Shown::of_engine(&recording)?.beside(&exact);
-    let made = film::make(&case, shown, &args.draw, &output, &mut progress)?;
-    let document = document(parameters, &settings, &recording, &agreement, &made, &output)?;
+    let checked = Checked::new(&case)?;
+    progress.say(&checked.verdict_line());
+    checked.write_trajectories(&case, &output, "")?;
+    let stage = film::stage(&case, checked.shown()?, &progress)?;
+    let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
+    let document = Document::new("run", parameters)
+        .with("engine", checked.engine_json())
+        .with("agreement", serde_json::to_value(&checked.agreement).context("agreement")?)
+        .with("frames", made.frames_json())
+        .with("files", json!(files_with(&output, "run.json")));
     let text = document.text()?;
     output.write("run.json", "", |writer| writeln!(writer, "{text}"))?;
     if args.common.json {
         print(&text)?;
     } else {
-        print(&conclusion(&agreement, &made, &directory))?;
+        print(&conclusion(&checked.agreement, &made, &directory))?;
     }
-    Ok(if agreement.passed { Verdict::Done } else { Verdict::Failed })
+    Ok(if checked.agreement.passed { Verdict::Done } else { Verdict::Failed })
 }
 
-fn write_trajectory(
-    output: &OutputDir,
-    name: &str,
-    trajectory: &Trajectory,
-    case: &Case,
-    solver: &str,
-    parameters: &Value,
-) -> anyhow::Result<()> {
-    let table = to_table(trajectory, &Provenance { case, solver, parameters: parameters.clone() }, &case.scales)?;
-    output.write(name, "", |writer| table.write_to(TableFormat::Csv, writer))?;
-    Ok(())
-}
-
-fn document(
-    parameters: Value,
-    settings: &EngineSettings,
-    recording: &Recording,
-    agreement: &Agreement,
-    made: &Made,
-    output: &OutputDir,
-) -> anyhow::Result<Document> {
-    let info = motions::engine_info(settings);
-    let engine = json!({
-        "name": info.name, "version": info.version, "precision": settings.precision.word(), "joints": settings.joints.word(),
-        "scheme": settings.scheme, "substeps": settings.substeps, "dt": settings.step, "steps": recording.steps,
-        "joint_drift": recording.drift, "outcome": recording.trajectory.outcome,
-        "trajectory_sha256": crate::engine::trajectory_hash(&recording.trajectory),
-    });
+/// The finished files of the directory, and one more that is about to be written.
+pub fn files_with(output: &OutputDir, name: &str) -> Vec<PathBuf> {
     let mut files = output.files();
-    let own = output.path().join("run.json");
+    let own = output.path().join(name);
     if !files.contains(&own) {
         files.push(own);
     }
     files.sort();
-    Ok(Document::new("run", parameters)
-        .with("engine", engine)
-        .with("agreement", serde_json::to_value(agreement).context("agreement")?)
-        .with("frames", made.frames_json())
-        .with("files", json!(files)))
-}
-
-fn verdict_line(settings: &EngineSettings, recording: &Recording, agreement: &Agreement) -> String {
-    format!(
-        "{}: {} steps of {:.3e}, agreement with the exact solution {}",
-        motions::engine_info(settings),
-        recording.steps,
-        settings.step,
-        if agreement.passed { "passed" } else { "FAILED" }
-    )
+    files
 }
 
 /// The checks as a small table, and where the film is.

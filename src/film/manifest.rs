@@ -3,6 +3,7 @@
 use super::error::FilmError;
 use super::plan::{Finished, frame_name};
 use super::settings::FilmSettings;
+use super::{FrameSource, FrameState};
 use crate::render::AdapterInfo;
 use crate::store::{OutputDir, sha256_hex};
 use serde::Serialize;
@@ -28,12 +29,14 @@ struct Frame<'a> {
     time: f64,
     file: String,
     sha256: &'a str,
+    #[serde(flatten)]
+    state: Option<FrameState>,
 }
 
 impl<'a> Frame<'a> {
-    fn new(index: u64, sha256: &'a str, settings: &FilmSettings) -> Self {
+    fn new(index: u64, sha256: &'a str, settings: &FilmSettings, source: &dyn FrameSource) -> Self {
         let time = index as f64 / f64::from(settings.frames_per_second);
-        Self { index, time, file: frame_name(index), sha256 }
+        Self { index, time, file: frame_name(index), sha256, state: source.state(index) }
     }
 }
 
@@ -42,6 +45,7 @@ pub(super) fn write(
     settings: &FilmSettings,
     output: &OutputDir,
     adapter: &AdapterInfo,
+    source: &dyn FrameSource,
     finished: &Finished,
 ) -> Result<(), FilmError> {
     let manifest = Manifest {
@@ -52,7 +56,7 @@ pub(super) fn write(
         frames_per_second: settings.frames_per_second,
         backend: &adapter.backend,
         adapter: &adapter.adapter,
-        frames: finished.iter().map(|(&index, sha256)| Frame::new(index, sha256, settings)).collect(),
+        frames: finished.iter().map(|(&index, sha256)| Frame::new(index, sha256, settings, source)).collect(),
     };
     let failed = |error: serde_json::Error| FilmError::Encode { index: 0, format: "JSON", reason: error.to_string() };
     let mut text = serde_json::to_vec_pretty(&manifest).map_err(failed)?;

@@ -8,6 +8,7 @@
 //! device, and its bytes still have the SHA-256 recorded there. Anything else is drawn again. The bytes of frames and film depend on the
 //! parameters, the device and this program's version only: neither on threads nor on interruptions.
 
+mod animation;
 mod encode;
 mod error;
 mod manifest;
@@ -18,12 +19,15 @@ mod report;
 mod settings;
 mod yuv;
 
+pub use animation::{animated_png, contact_sheet, gif, scaled};
 pub use error::{FilmError, SourceError};
+pub use picture::encode as encode_png;
 pub use pipeline::produce;
 pub use report::{FilmReport, Progress, StageTimes};
 pub use settings::{FilmSettings, Video};
 
 use crate::render::DrawList;
+use serde::Serialize;
 
 /// Frames as drawing lists.
 pub trait FrameSource: Sync {
@@ -35,4 +39,20 @@ pub trait FrameSource: Sync {
     /// # Errors
     /// Whatever keeps the frame from being built; reported as [`FilmError::Source`].
     fn frame(&self, index: u64) -> Result<DrawList, SourceError>;
+
+    /// What the frame at `index < count()` shows, for the manifest.
+    fn state(&self, _index: u64) -> Option<FrameState> {
+        None
+    }
+}
+
+/// See [`FrameSource::state`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrameState {
+    /// Time of the motion, in its own units.
+    #[serde(rename = "motion_time")]
+    pub time: f64,
+    /// SHA-256 of the state that is drawn.
+    #[serde(rename = "state_sha256")]
+    pub sha256: String,
 }

@@ -6,7 +6,10 @@ use png::{BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, Fil
 use std::io::Cursor;
 
 /// An opaque picture as PNG; alpha is left out.
-pub(super) fn encode(image: &RgbaImage) -> Result<Vec<u8>, EncodingError> {
+///
+/// # Errors
+/// As the encoder's; none for pictures in memory.
+pub fn encode(image: &RgbaImage) -> Result<Vec<u8>, EncodingError> {
     let mut rgb = vec![0; image.as_raw().len() / 4 * 3];
     for (rgb, rgba) in rgb.chunks_exact_mut(3).zip(image.as_raw().chunks_exact(4)) {
         rgb.copy_from_slice(&rgba[..3]);

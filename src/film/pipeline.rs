@@ -63,7 +63,7 @@ pub fn produce(
             times.encode_video += begin.elapsed();
         }
     }
-    manifest::write(settings, output, &adapter, &plan.finished)?;
+    manifest::write(settings, output, &adapter, source, &plan.finished)?;
 
     let film = plan.film.as_ref().map(|film| output.path().join(&film.name));
     let pictures = plan.selected.clone().map(|index| output.path().join(frame_name(index)));

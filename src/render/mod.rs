@@ -10,6 +10,7 @@ mod open;
 mod overlay;
 mod portable;
 mod renderer;
+mod retry;
 pub mod shapes;
 mod view;
 

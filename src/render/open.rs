@@ -2,6 +2,7 @@
 
 use super::cpu::CpuRenderer;
 use super::gpu::GpuRenderer;
+use super::retry::Persistent;
 use super::{RenderError, Renderer};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
@@ -28,11 +29,15 @@ pub enum RendererChoice {
 /// A driver that has not opened a device by then hangs.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Opens a back end; [`Renderer::info`] tells which and why.
+/// Opens a back end; [`Renderer::info`] tells which and why. A device that is lost while it draws is opened again.
 ///
 /// # Errors
 /// If a graphics adapter was asked for and there is none, or it does not answer. `Auto` and `Cpu` never fail.
 pub fn open(choice: RendererChoice) -> Result<Box<dyn Renderer>, RenderError> {
+    Ok(Box::new(Persistent::new(choice, open_once)?))
+}
+
+fn open_once(choice: RendererChoice) -> Result<Box<dyn Renderer>, RenderError> {
     match choice {
         RendererChoice::Cpu => Ok(Box::new(CpuRenderer::new("asked for"))),
         RendererChoice::Auto => open_gpu(choice).or_else(|error| Ok(Box::new(CpuRenderer::new(why_not(&error))))),

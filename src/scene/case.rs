@@ -126,8 +126,8 @@ impl Scene {
     }
 
     fn checked_direction(&self) -> Result<Direction, Refusal> {
-        let panels = self.direction.panels().len() as u64;
-        whole("direction.panels", panels, 0, Panel::ALL.len() as u64, "a list of at most 6 panels")?;
+        let fault = |(field, allowed)| (format!("direction.{field}"), Fault::Direction { field, allowed });
+        self.direction.check().map_err(fault)?;
         Ok(self.direction.clone())
     }
 
@@ -164,17 +164,47 @@ fn film_settings(film: Film, scales: &Scales) -> Result<Film, Refusal> {
 }
 
 impl Case {
+    /// The panels of the film: those asked for, or all that say something about the motion.
+    #[must_use]
+    pub fn panels(&self) -> &[Panel] {
+        match (&self.direction.panels, self.prescribed) {
+            (Some(panels), _) => panels,
+            (None, None) => &Panel::ALL,
+            (None, Some(_)) => &[Panel::Hysteresis, Panel::Series, Panel::Energy],
+        }
+    }
+
     /// Time between two frames.
     #[must_use]
     pub fn frame_interval(&self) -> f64 {
         self.film.speed / f64::from(self.film.fps)
     }
 
-    /// Frames in the whole film: one at time 0, the last one not after the end.
+    /// Time of the motion that frame `index` shows.
+    #[must_use]
+    pub fn motion_time(&self, index: u64) -> f64 {
+        if self.direction.slow_motion.is_empty() {
+            return index as f64 * self.frame_interval();
+        }
+        self.film.speed * self.direction.elapsed(index as f64 / f64::from(self.film.fps))
+    }
+
+    /// Frames that show the motion up to `end`: one at time 0, the last one not after the end.
+    #[must_use]
+    pub fn frames_until(&self, end: f64) -> u64 {
+        // A frame that rounding puts just after the end still belongs to the film.
+        (self.frame_position(end) + 1e-9).floor() as u64 + 1
+    }
+
+    /// Number of the frame, with its fraction, that shows the motion at `time`.
+    fn frame_position(&self, time: f64) -> f64 {
+        self.direction.film_time(time / self.film.speed) * f64::from(self.film.fps)
+    }
+
+    /// Frames in the whole film.
     #[must_use]
     pub fn frame_count(&self) -> u64 {
-        // A frame that rounding puts just after the end still belongs to the film.
-        (self.duration / self.frame_interval() + 1e-9).floor() as u64 + 1
+        self.frames_until(self.duration)
     }
 
     /// The same case with another film, its speed in the units of the scene; `origin` names the film in errors.
@@ -193,7 +223,7 @@ impl Case {
     }
 
     fn check_lengths(&self) -> Result<(), Refusal> {
-        let frames = self.duration / self.frame_interval();
+        let frames = self.frame_position(self.duration);
         if frames > MAX_FRAMES as f64 {
             return Err(("film.speed".to_owned(), Fault::FrameCount { found: frames, allowed: MAX_FRAMES }));
         }

@@ -37,6 +37,12 @@ pub enum Fault {
     Parameter(#[from] ParameterError),
     #[error("{field} = {found} is not allowed: it must be {allowed}")]
     Whole { field: &'static str, found: u64, allowed: &'static str },
+    #[error("{field} is not allowed as it is: it must be {allowed}")]
+    Direction { field: &'static str, allowed: &'static str },
+    #[error("a story has at least one scene: add [[scene]]")]
+    EmptyStory,
+    #[error("all scenes of a story need the same width, height and fps: this one has others than the first")]
+    OtherFormat,
     #[error("a scene has either [rig] or [rig_si], this one has both: remove one")]
     TwoRigs,
     #[error("a scene is about a [disk] or a two-mass rig, this one has [disk] and [{other}]: remove [{other}]")]

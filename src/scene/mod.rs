@@ -6,13 +6,15 @@ mod direction;
 mod disk;
 mod error;
 mod load;
+mod story;
 
 pub use case::Case;
 pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation, Theme};
-pub use direction::{Direction, Panel};
+pub use direction::{CameraMove, Caption, Direction, Easing, Key, Panel, SlowMotion, View};
 pub use disk::{DiskCase, DiskStart, WaveStart};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;
+pub use story::Story;
 
 impl Scene {
     /// JSON Schema of scene files.

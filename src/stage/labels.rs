@@ -11,12 +11,20 @@ fn text(position: Vec2, size: f32, colour: Colour, bold: bool, text: String) -> 
     OverlayItem::Text { position, anchor: Anchor::Left, size, colour, bold, text }
 }
 
-/// Headline and caption, top left; the caption breaks into lines that fit `width`.
-pub fn draw_headline(case: &Case, palette: &Palette, origin: Vec2, width: f32, scale: f32, out: &mut Vec<OverlayItem>) {
-    out.push(text(origin + Vec2::new(0.0, 26.0) * scale, 28.0 * scale, palette.text, true, case.title.clone()));
-    for (row, line) in wrap(&case.caption, 15.0 * scale, width).into_iter().enumerate() {
+/// Headline and caption, top left; the caption, shown as far as its second part says, breaks into lines that fit the width.
+pub fn draw_headline(
+    title: &str,
+    (caption, shown): (&str, f64),
+    palette: &Palette,
+    (origin, width): (Vec2, f32),
+    scale: f32,
+    out: &mut Vec<OverlayItem>,
+) {
+    out.push(text(origin + Vec2::new(0.0, 26.0) * scale, 28.0 * scale, palette.text, true, title.to_owned()));
+    let colour = palette.faint_text.with_alpha(shown as f32);
+    for (row, line) in wrap(caption, 15.0 * scale, width).into_iter().enumerate() {
         let place = origin + Vec2::new(0.0, 52.0 + 20.0 * row as f32) * scale;
-        out.push(text(place, 15.0 * scale, palette.faint_text, false, line));
+        out.push(text(place, 15.0 * scale, colour, false, line));
     }
 }
 

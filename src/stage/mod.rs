@@ -25,6 +25,11 @@ use palette::Palette;
 use panels::Panels;
 use rig::RigModel;
 
+/// Middle of the rig, half of the width and height that show all of it, and the camera's distance; drawing units.
+const MIDDLE: Vec3 = Vec3::new(-0.1, 0.52, 0.12);
+const EXTENT: [f32; 2] = [3.7, 1.4];
+const DISTANCE: f32 = 10.3;
+
 /// What a film may show beside its motion.
 #[derive(Debug, Clone, Default)]
 pub struct Beside {
@@ -51,9 +56,9 @@ impl Stage {
     #[must_use]
     pub fn new(case: Case, motion: Motion, beside: Beside) -> Self {
         let palette = Palette::of(case.film.theme);
-        let layout = Layout::new([case.film.width, case.film.height], case.direction.panels().len());
+        let layout = Layout::new([case.film.width, case.film.height], case.panels().len());
         let panels = Panels::new(&case, &motion, beside.map.as_ref(), &layout.panels, layout.scale, palette);
-        let rig = RigModel::new(&case.parameters, &motion, palette, case.prescribed.is_some());
+        let rig = RigModel::new(&case, &motion, palette);
         let ghost = beside.exact.and_then(|exact| Ghost::new(&motion, exact, rig.magnification()));
         Self { case, motion, palette, layout, rig, ghost, panels }
     }
@@ -61,25 +66,47 @@ impl Stage {
     /// Frames that show the motion from its start to its end; fewer than the scene asks for where the motion diverged.
     #[must_use]
     pub fn frame_count(&self) -> u64 {
-        let filled = (self.motion.end() / self.case.frame_interval() + 1e-9).floor() as u64 + 1;
-        filled.min(self.case.frame_count())
+        self.case.frames_until(self.motion.end()).min(self.case.frame_count())
     }
 
     /// Time of the motion shown in a frame.
     #[must_use]
     pub fn time(&self, index: u64) -> f64 {
-        index as f64 * self.case.frame_interval()
+        self.case.motion_time(index)
+    }
+
+    /// Time at which the motion ends.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.motion.end()
+    }
+
+    /// What a frame shows.
+    #[must_use]
+    pub fn instant(&self, index: u64) -> Instant {
+        self.motion.at(self.time(index))
     }
 
     /// The frame at `index`.
     #[must_use]
     pub fn frame(&self, index: u64) -> DrawList {
-        let now = self.motion.at(self.time(index));
+        self.picture(self.time(index), index as f64 / f64::from(self.case.film.fps))
+    }
+
+    /// The frame that would show the motion at exactly `time`.
+    #[must_use]
+    pub fn frame_at(&self, time: f64) -> DrawList {
+        self.picture(time, self.case.direction.film_time(time / self.case.film.speed))
+    }
+
+    /// The motion at `time`, after `seconds` of film.
+    fn picture(&self, time: f64, seconds: f64) -> DrawList {
+        let now = self.motion.at(time);
         let film = self.case.film;
         let size = [film.width, film.height];
-        let camera = self.camera();
+        let camera = self.camera(seconds);
         let mut overlay = Vec::new();
-        self.draw_words(&now, &camera, &mut overlay);
+        self.draw_words(&now, seconds, &camera, &mut overlay);
         self.panels.draw(&self.motion, &now, &mut overlay);
         DrawList {
             size,
@@ -92,14 +119,22 @@ impl Stage {
     }
 
     /// Everything written over the scene.
-    fn draw_words(&self, now: &Instant, camera: &Camera, out: &mut Vec<OverlayItem>) {
+    fn draw_words(&self, now: &Instant, seconds: f64, camera: &Camera, out: &mut Vec<OverlayItem>) {
         let (scale, palette) = (self.layout.scale, &self.palette);
         let size = [self.case.film.width, self.case.film.height];
         let scene = self.layout.scene;
-        labels::draw_headline(&self.case, palette, scene.min, scene.max.x - scene.min.x, scale, out);
+        let caption = self.case.direction.caption(seconds).unwrap_or((&self.case.caption, 1.0));
+        let room = scene.max.x - scene.min.x;
+        labels::draw_headline(&self.case.title, caption, palette, (scene.min, room), scale, out);
         let status = self.layout.status();
         labels::draw_status(&self.case, palette, now, (status, scene.max.x), scale, out);
         let anchors = self.rig.anchors(now);
+        // The springs pass behind the letter of the normal force.
+        if let Some(place) = camera.project(anchors.normal_force, size) {
+            let centre = place + Vec2::new(-17.0, 3.0) * scale;
+            let fill = palette.panel.with_alpha(0.65);
+            out.push(OverlayItem::Disc { centre, radius: 10.0 * scale, fill, stroke: None });
+        }
         let mut word = |place: Vec3, size_px: f32, colour, text: &str, shift: Vec2| {
             if let Some(position) = camera.project(place, size) {
                 out.push(OverlayItem::Text {
@@ -115,7 +150,7 @@ impl Stage {
         for (place, name) in anchors.masses.into_iter().zip(["1", "2"]) {
             word(place, 22.0, palette::CARRIAGE_TEXT, name, Vec2::new(0.0, 8.0));
         }
-        word(anchors.normal_force, 14.0, palette.text, "N", Vec2::new(-16.0, 10.0));
+        word(anchors.normal_force, 14.0, palette.text, "N", Vec2::new(-17.0, 8.0));
         word(anchors.pad, 11.0, palette::LABEL_ON_METAL, "friction pad", Vec2::ZERO);
         let above_status = Vec2::new(0.0, 14.0) * scale;
         if self.case.prescribed.is_none() {
@@ -134,8 +169,12 @@ impl Stage {
         }
     }
 
-    /// From the front, a little above and to the side of the Jenkins element.
-    fn camera(&self) -> Camera {
-        self.layout.camera(Vec3::new(-0.1, 0.52, 0.12), [-0.27, 0.40], 10.3, [3.75, 1.45])
+    /// Where the direction of the scene puts it.
+    fn camera(&self, seconds: f64) -> Camera {
+        let length = self.frame_count().saturating_sub(1) as f64 / f64::from(self.case.film.fps);
+        let view = self.case.direction.camera.view(seconds, length);
+        let shift = Vec3::from(view.shift.map(|shift| shift as f32));
+        let direction = [view.azimuth, view.elevation].map(|angle| angle.to_radians() as f32);
+        self.layout.camera(MIDDLE + shift, direction, DISTANCE, EXTENT.map(|half| half / view.zoom as f32))
     }
 }

@@ -44,6 +44,8 @@ mod exact_energy;
 #[cfg(feature = "render")]
 mod film;
 mod general_solver;
+#[cfg(feature = "render")]
+mod golden;
 mod harmonic_balance;
 mod hopf;
 #[cfg(feature = "engine")]

@@ -255,3 +255,70 @@ fn no_word_is_cut_off() {
         }
     }
 }
+
+/// What is put in, taken out and stored adds up to the residual in every row of the ledger, also where the motion is prescribed: the drive
+/// has a row of its own there.
+#[test]
+fn the_rows_of_the_ledger_add_up() {
+    let (_, text) = stickslip::scene::BUILT_IN.iter().find(|(name, _)| *name == "hysteresis").unwrap();
+    let (_, case) = Scene::parse(text, "hysteresis").unwrap();
+    let rig = TwoMassRig::new(case.parameters).unwrap();
+    let motion = case.prescribed.unwrap();
+    let flow = stickslip::exact::PrescribedFlow::new(rig.chain(), motion).unwrap();
+    let start = State::two_mass([0.0, 0.0, motion.velocity(0.0), 0.0, 0.0]);
+    let trajectory = flow.trajectory(&start, Sampling { interval: INTERVAL, t_end: case.duration }).unwrap();
+    let stage = Stage::new(case.clone(), Motion::new(&trajectory).unwrap(), Beside::default());
+    let list = stage.frame(stage.frame_count() - 1);
+    let place = case.panels().iter().position(|panel| *panel == Panel::Energy).unwrap();
+    let numbers: Vec<f64> = panels(&list)[place]
+        .iter()
+        .filter_map(|item| match item {
+            OverlayItem::Text { anchor: Anchor::Right, text, .. } => text.replace('\u{2212}', "-").parse().ok(),
+            _ => None,
+        })
+        .collect();
+    let [drive, excitation, damping, friction, stored, residual] = numbers[..] else { panic!("{numbers:?}") };
+    // Five roundings to three digits.
+    assert!((stored - drive - excitation - damping - friction - residual).abs() < 0.0026, "{numbers:?}");
+    // The area of the loop times gamma: 4 (a - 1) gamma = 2 for a = 2, gamma = 0.5.
+    assert!((friction + 2.0).abs() < 0.002, "{friction}");
+}
+
+#[test]
+fn slow_motion_shows_its_stretch_slower_and_makes_the_film_longer() {
+    let (mut case, trajectory) = torus();
+    let plain = stage(&case, &trajectory);
+    case.direction.slow_motion = vec![stickslip::scene::SlowMotion { from: 2.0, to: 4.0, factor: 0.25 }];
+    let slowed = stage(&case, &trajectory);
+    // 30 frames and 8 time units a second.
+    assert_eq!(slowed.time(60), plain.time(60));
+    assert!((slowed.time(120) - slowed.time(60) - 0.25 * 16.0).abs() < 1e-12);
+    assert!((slowed.time(150) - slowed.time(120) - 8.0).abs() < 1e-12);
+    // Two seconds took the place of half a second: 1.5 s longer.
+    assert_eq!(slowed.frame_count(), plain.frame_count() + 45);
+}
+
+#[test]
+fn captions_and_camera_follow_the_direction() {
+    let (mut case, trajectory) = torus();
+    let caption = stickslip::scene::Caption { from: 1.0, to: 3.0, text: "look here".to_owned() };
+    case.direction.captions = vec![caption];
+    let view = |azimuth| stickslip::scene::View { azimuth, ..stickslip::scene::View::default() };
+    case.direction.camera = stickslip::scene::CameraMove::Dolly {
+        from: view(-20.0),
+        to: view(20.0),
+        easing: stickslip::scene::Easing::Linear,
+    };
+    let stage = stage(&case, &trajectory);
+    let says = |index, words: &str| {
+        let list = stage.frame(index);
+        list.overlay.iter().any(|item| matches!(item, OverlayItem::Text { text, .. } if text.contains(words)))
+    };
+    assert!(
+        says(45, "look here") && !says(10, "look here") && says(10, "trade amplitude") && !says(45, "trade amplitude")
+    );
+    let eye = |index| stage.frame(index).camera.eye - stage.frame(index).camera.target;
+    let (first, middle, last) = (eye(0), eye(300), eye(600));
+    // From the left, from the front, from the right; mirror images of each other.
+    assert!(first.x < -1.0 && middle.x.abs() < 1e-4 && (last.x + first.x).abs() < 1e-4);
+}

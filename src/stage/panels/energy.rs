@@ -67,22 +67,19 @@ impl Energy {
         panel
     }
 
-    fn entries(&self, motion: &Motion, now: &Instant) -> [Entry; 5] {
+    fn entries(&self, motion: &Motion, now: &Instant) -> Vec<Entry> {
         let ledger = change(motion, now);
         let (works, palette) = (ledger.works, &self.palette);
         let entry = |label, colour, value| Entry { label, colour, value, is_tiny: false };
-        let source = if self.is_driven {
-            entry("drive", palette.excitation, works.drive)
-        } else {
-            entry("excitation", palette.excitation, works.self_excitation)
-        };
-        [
-            source,
+        let drive = self.is_driven.then(|| entry("drive", palette.stick, works.drive));
+        let works = [
+            entry("excitation", palette.excitation, works.self_excitation),
             entry("damping", palette.damping, works.damping),
             entry("friction", palette.slip, works.friction),
             entry("stored", palette.masses[0], ledger.stored - ledger.stored_at_start),
             Entry { is_tiny: true, ..entry("residual", palette.text, ledger.residual()) },
-        ]
+        ];
+        drive.into_iter().chain(works).collect()
     }
 
     pub fn draw(&self, motion: &Motion, now: &Instant, out: &mut Vec<OverlayItem>) {
@@ -141,6 +138,10 @@ impl Energy {
 /// With its sign; three digits after the point, or two and the power of ten.
 fn written(value: f64, with_power: bool) -> String {
     let text = if with_power { format!("{value:+.1e}") } else { format!("{value:+.3}") };
+    // A sign before nothing says nothing.
+    if text == "-0.000" || text == "+0.000" {
+        return "0.000".to_owned();
+    }
     text.replace('-', "−")
 }
 
@@ -152,6 +153,7 @@ mod tests {
     fn energies_are_written_with_their_sign() {
         assert_eq!(written(0.12345, false), "+0.123");
         assert_eq!(written(-2.0, false), "−2.000");
+        assert_eq!(written(-0.0001, false), "0.000");
         assert_eq!(written(-2.34e-6, true), "−2.3e−6");
     }
 }

@@ -87,7 +87,7 @@ impl Panels {
             Panel::Energy => Drawn::Energy(Energy::new(&frame, place, case.prescribed.is_some())),
             Panel::Map => Drawn::Map(Map::new(&frame, place, map.cloned().unwrap_or_default(), case.parameters.xi1)),
         };
-        Self { drawn: case.direction.panels().iter().zip(places).map(panel).collect() }
+        Self { drawn: case.panels().iter().zip(places).map(panel).collect() }
     }
 
     /// All panels as they stand at `now`.

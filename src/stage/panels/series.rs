@@ -33,10 +33,11 @@ impl Series {
         let plot = Plot { x: Axis::exactly(end - window, end), ..self.plot.clone() };
         plot.draw_frame(out);
         let from = (end - window) / s.time;
-        for (mass, colour) in plot.palette.masses.into_iter().enumerate().rev() {
+        // Mass 2 below and wider: where both move alike both are seen.
+        for (mass, (colour, width)) in plot.palette.masses.into_iter().zip([1.4, 2.4]).enumerate().rev() {
             let data =
                 motion.between(from, now.time, MOST_POINTS).map(|i| (i.time * s.time, i.positions[mass] * s.length));
-            plot.draw_line(data, 1.6, colour, out);
+            plot.draw_line(data, width, colour, out);
             plot.draw_marker(now.time * s.time, now.positions[mass] * s.length, colour, out);
         }
         draw_legend(&plot, out);

@@ -11,9 +11,9 @@ mod links;
 
 use super::motion::{Body, Instant, Motion};
 use super::palette::Palette;
-use crate::model::RigParameters;
 use crate::render::shapes::block;
 use crate::render::{Material, Mesh, Object};
+use crate::scene::Case;
 use carriage::Carriage;
 use excitation::Excitation;
 use glam::{Affine3A, Quat, Vec3};
@@ -61,20 +61,24 @@ fn cuboid(half: [f32; 3], bevel: f32, place: [f32; 3], material: Material) -> Ob
 }
 
 impl RigModel {
-    /// `is_driven` where mass 1 is moved from outside: nothing excites itself then.
+    /// Where mass 1 is moved from outside nothing excites itself.
     #[must_use]
-    pub fn new(parameters: &RigParameters, motion: &Motion, palette: Palette, is_driven: bool) -> Self {
+    pub fn new(case: &Case, motion: &Motion, palette: Palette) -> Self {
         let largest = |of: fn(&Instant) -> f64| motion.largest(of) as f32;
         let displacement = largest(|i| i.positions[0].abs().max(i.positions[1].abs()));
         let distance = largest(|i| i.positions[1] - i.positions[0]);
-        let magnification = (ROOM / displacement.max(1.0)).min(STROKE / distance.max(0.1));
+        let fitting = (ROOM / displacement.max(1.0)).min(STROKE / distance.max(0.1));
+        let magnification = case.direction.magnification as f32 * fitting;
         let colours = palette.masses;
         Self {
             palette,
             fixed: bench::fixed_parts(&palette),
             carriages: [Carriage::new(colours[0]), Carriage::new(colours[1])],
             jenkins: Jenkins::new(motion, magnification),
-            excitation: (!is_driven).then(|| Excitation::new(parameters, motion, palette.excitation)),
+            excitation: case
+                .prescribed
+                .is_none()
+                .then(|| Excitation::new(&case.parameters, motion, palette.excitation)),
             magnification,
         }
     }
@@ -153,7 +157,7 @@ mod tests {
     use super::*;
     use crate::dynamics::{Outcome, Sample, State, Trajectory};
     use crate::model::{ContactState, Direction, EnergyLedger};
-    use crate::scene::Theme;
+    use crate::scene::{Scene, Theme};
 
     /// Three instants: at rest, pulled to x1 = 1.5 with the slider slipping, and back by 0.5 sticking.
     fn motion() -> Motion {
@@ -174,7 +178,7 @@ mod tests {
     }
 
     fn model(motion: &Motion) -> RigModel {
-        RigModel::new(&RigParameters::default(), motion, Palette::of(Theme::Dark), false)
+        RigModel::new(&Scene::built_in().unwrap().1, motion, Palette::of(Theme::Dark))
     }
 
     /// The objects painted in a colour, and where they stand.

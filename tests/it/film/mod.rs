@@ -1,5 +1,6 @@
 //! Films of a fake renderer whose frames say which one they are.
 
+mod browser;
 mod fake;
 mod mp4;
 mod resume;

@@ -1,0 +1,84 @@
+//! `gallery`: a picture and a short loop of every built-in scene, as pages about the program show them.
+
+use super::Verdict;
+use super::common::print;
+use super::film::{self, DrawArgs, Shown};
+use super::motions;
+use super::progress::Progress;
+use crate::film::{encode_png, gif, scaled};
+use crate::render::Renderer;
+use crate::scene::{BUILT_IN, Case, Scene};
+use crate::stage::Stage;
+use crate::store::write_atomically;
+use anyhow::Context;
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// Width of pictures and loops in pixels, frames of a loop, and its frames per second.
+const PICTURE: u32 = 960;
+const LOOP: u32 = 400;
+const LOOP_FRAMES: u64 = 40;
+const LOOP_RATE: u32 = 12;
+/// Part of the motion after which a picture is taken and a loop begins: the panels are full by then.
+const PICTURE_AT: f64 = 0.62;
+const LOOP_AT: f64 = 0.45;
+/// A loop shows the motion slower than the film, for its few frames a second.
+const LOOP_SPEED: f64 = 0.5;
+
+/// A picture and a short loop of every built-in scene.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  stickslip gallery -o renders/gallery")]
+pub struct GalleryArgs {
+    /// Directory for NAME.png and NAME.gif; files of these names are replaced.
+    #[arg(short, long, value_name = "DIRECTORY", default_value = "renders/gallery")]
+    output: PathBuf,
+    /// No progress and no logs.
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    draw: DrawArgs,
+}
+
+pub fn run(args: &GalleryArgs) -> anyhow::Result<Verdict> {
+    let progress = Progress::new(args.quiet);
+    std::fs::create_dir_all(&args.output).with_context(|| format!("{} cannot be made", args.output.display()))?;
+    let mut renderer = film::renderer(&args.draw, &progress)?;
+    for (name, text) in BUILT_IN {
+        let (_, case) = Scene::parse(text, name)?;
+        let path = |extension: &str| args.output.join(format!("{name}.{extension}"));
+        write(&path("png"), &picture(&case, renderer.as_mut(), &progress)?)?;
+        write(&path("gif"), &short_loop(&case, renderer.as_mut(), &progress)?)?;
+    }
+    Ok(Verdict::Done)
+}
+
+fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    write_atomically(path, |writer| Ok(writer.write_all(bytes)?))?;
+    print(&path.display().to_string())
+}
+
+/// The case in the engine, ready to be drawn.
+fn stage(case: &Case, progress: &Progress) -> anyhow::Result<Stage> {
+    let recording = motions::in_engine(case, &motions::start(case)?, motions::film_sampling(case))?;
+    film::stage(case, Shown::of_engine(&recording)?, progress)
+}
+
+fn picture(case: &Case, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {
+    let stage = stage(case, progress)?;
+    let (image, _) = renderer.draw(&stage.frame((PICTURE_AT * stage.frame_count() as f64) as u64))?;
+    encode_png(&scaled(&image, PICTURE)).context("the picture could not be encoded")
+}
+
+/// The rig alone: panels could not be read at this size.
+fn short_loop(case: &Case, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {
+    let mut case = case.clone();
+    case.direction.panels = Some(Vec::new());
+    case.film.fps = LOOP_RATE;
+    case.film.speed *= LOOP_SPEED;
+    let stage = stage(&case, progress)?;
+    let first = (LOOP_AT * stage.frame_count() as f64) as u64;
+    let frames = (first..stage.frame_count().min(first + LOOP_FRAMES))
+        .map(|index| Ok(scaled(&renderer.draw(&stage.frame(index))?.0, LOOP)))
+        .collect::<anyhow::Result<Vec<_>>>()?;
+    gif(&frames, (1, LOOP_RATE as u16)).context("the loop could not be encoded")
+}
