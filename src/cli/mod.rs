@@ -20,6 +20,7 @@ mod progress;
 mod render;
 mod run;
 mod simulate;
+mod slow_flow;
 mod trajectory_table;
 
 use clap::{Parser, Subcommand};
@@ -50,6 +51,7 @@ enum Command {
     Lyapunov(lyapunov::LyapunovArgs),
     Poincare(poincare::PoincareArgs),
     Diagram(diagram::DiagramArgs),
+    SlowFlow(slow_flow::SlowFlowArgs),
     Paper(paper::PaperArgs),
     Modes(modes::ModesArgs),
     /// Print the JSON Schema of scene files.
@@ -96,6 +98,7 @@ pub fn main() -> ExitCode {
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Poincare(args) => poincare::run(&args),
         Command::Diagram(args) => diagram::run(&args),
+        Command::SlowFlow(args) => slow_flow::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Modes(args) => modes::run(&args),
         Command::Schema(args) => generate::schema(&args),

@@ -15,6 +15,8 @@ mod exact;
 mod fig1;
 mod fig10;
 mod fig2;
+mod fig3;
+mod fig4;
 mod fig5;
 mod fig6;
 mod fig9;
@@ -24,6 +26,8 @@ mod lyapunov;
 mod rotation;
 mod run;
 mod schematic;
+mod slow;
+mod table1;
 
 pub use check::{Check, Value};
 pub use error::PaperError;
@@ -35,8 +39,11 @@ pub use run::{ItemResult, News, run, stored};
 pub const ITEMS: &[PaperItem] = &[
     fig1::ITEM,
     fig2::ITEM,
+    fig3::ITEM,
+    fig4::ITEM,
     fig5::ITEM,
     fig6::ITEM,
+    table1::ITEM,
     fig9::ITEM,
     fig10::ITEM,
     lyapunov::ITEM,

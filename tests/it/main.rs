@@ -2,6 +2,9 @@
 
 mod asymmetric;
 mod averaging;
+mod averaging_flow;
+mod averaging_perturbation;
+mod averaging_tori;
 #[cfg(feature = "render")]
 mod back_ends;
 mod branches;
