@@ -19,6 +19,8 @@ mod fig3;
 mod fig4;
 mod fig5;
 mod fig6;
+mod fig7;
+mod fig8;
 mod fig9;
 mod index;
 mod item;
@@ -43,6 +45,8 @@ pub const ITEMS: &[PaperItem] = &[
     fig4::ITEM,
     fig5::ITEM,
     fig6::ITEM,
+    fig7::ITEM,
+    fig8::ITEM,
     table1::ITEM,
     fig9::ITEM,
     fig10::ITEM,
