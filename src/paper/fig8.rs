@@ -65,7 +65,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
 
 fn portrait(case: &Case, xi1: f64, frequency: &Arc<EnergyFrequency>) -> Result<Portrait, PaperError> {
     let (flow, start) = beside_the_cycle(case.at(xi1), frequency)?;
-    let window = settled(case, case.at(xi1), case.choose(30_000.0, 6000.0));
+    let window = settled(case, case.at(xi1), case.choose(12_000.0, 6000.0));
     let motion = flow.motion(&start, window.end())?;
     let steps = ((motion.end() - window.transient) / STEP).max(0.0) as usize;
     let times: Vec<f64> = (0..=steps).map(|n| window.transient + n as f64 * STEP).collect();

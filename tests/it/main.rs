@@ -13,6 +13,8 @@ mod chain;
 mod cli;
 #[cfg(feature = "cli")]
 mod cli_analysis;
+#[cfg(feature = "cli")]
+mod cli_slow_flow;
 #[cfg(feature = "engine")]
 mod compare;
 #[cfg(feature = "cli")]
