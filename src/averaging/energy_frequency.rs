@@ -92,10 +92,12 @@ impl EnergyFrequency {
                     let found = nodes as f64;
                     return Err(AveragingError::OutOfRange { field: "nodes", found, allowed: "from 4 to 200000" });
                 }
-                let points = Followed::new(parameters, definition, FINE_STEP)?.selected(nodes, spacing);
-                let energies = points.iter().map(|point| point.energy).collect();
-                let frequencies = points.iter().map(|point| point.cycle.angular_frequency).collect();
-                (points, Relation::Pchip(Pchip::through(energies, frequencies)))
+                let mut points = Followed::new(parameters, definition, FINE_STEP)?;
+                let chosen = points.selected(nodes, spacing);
+                let energies = chosen.iter().map(|point| point.energy).collect();
+                let frequencies = chosen.iter().map(|point| point.cycle.angular_frequency).collect();
+                points.thin_out((COARSE_STEP / FINE_STEP) as usize);
+                (points.points, Relation::Pchip(Pchip::through(energies, frequencies)))
             }
         };
         let frequencies = points.iter().map(|point| point.cycle.angular_frequency);
@@ -132,9 +134,18 @@ impl EnergyFrequency {
         self.range
     }
 
-    /// The limit cycles along the branch with their energies: the nodes of a PCHIP, or some thousands.
+    /// Some thousands of limit cycles along the branch with their energies.
     pub fn branch(&self) -> impl Iterator<Item = (f64, &SlowLimitCycle)> {
         self.energies.iter().copied().zip(&self.cycles)
+    }
+
+    /// Energies and frequencies of the nodes of a PCHIP.
+    pub fn nodes(&self) -> impl Iterator<Item = (f64, f64)> {
+        let pchip = match &self.relation {
+            Relation::Pchip(pchip) => Some(pchip),
+            Relation::Smooth(_) => None,
+        };
+        pchip.into_iter().flat_map(Pchip::nodes)
     }
 
     /// `w` and `dw/dE`.
@@ -288,6 +299,16 @@ impl Followed {
             ends[1 - side].1 *= 0.5;
         }
         Ok(found)
+    }
+
+    /// Keeps every `stride`-th point, and the last.
+    fn thin_out(&mut self, stride: usize) {
+        let last = self.points.len() - 1;
+        let mut index = 0;
+        self.points.retain(|_| {
+            index += 1;
+            (index - 1) % stride == 0 || index - 1 == last
+        });
     }
 
     /// Nodes spread as asked, ends included, of the points followed. Where the coordinate falls (an amplitude that turns), points are passed

@@ -12,6 +12,7 @@
 //! | `slow_flow` | (10)-(12) |
 //! | `fixed_points` | stability, secondary Hopf points, fold |
 //! | `integration` | the slow flow in time |
+//! | `perturbation` | (25)-(30) |
 //! | `motion`, `restored_flow` | the fast oscillation restored, (4)-(5) |
 //! | `torus`, `torus_branch`, `doublings` | its limit cycles and their period doublings (Table 1) |
 
@@ -26,6 +27,7 @@ mod limit_cycles;
 mod motion;
 mod panels;
 mod pchip;
+mod perturbation;
 mod restored_flow;
 mod slow_flow;
 mod torus;
@@ -39,6 +41,7 @@ pub use error::AveragingError;
 pub use fixed_points::{SlowFixedPoint, SlowFold, SlowHopf, fixed_point, folds, hopf_points};
 pub use limit_cycles::SlowLimitCycle;
 pub use motion::{SlowMotion, SlowState};
+pub use perturbation::PerturbedLimitCycle;
 pub use restored_flow::RestoredSlowFlow;
 pub use slow_flow::{SlowFlow, SlowRate};
 pub use torus::SlowTorus;

@@ -19,7 +19,7 @@ use super::error::AveragingError;
 use super::integration::{Ending, Field, Tolerance, integrate};
 use super::limit_cycles::Coefficients;
 use super::slow_flow::SlowFlow;
-use crate::dynamics::{Event, Motion, Outcome, State};
+use crate::dynamics::{Event, EventKind, Motion, Outcome, State};
 use crate::model::{ContactState, Direction, sticking_angle};
 use nalgebra::{Complex, Vector3};
 use std::f64::consts::PI;
@@ -245,8 +245,8 @@ impl SlowMotion {
                     };
                     angle - sticking_angle(z.norm())
                 };
-                events.push(event(root(past, start, time), crate::dynamics::EventKind::StickToSlip));
-                events.push(event(time, crate::dynamics::EventKind::SlipToStick));
+                events.push(event(root(past, start, time), EventKind::StickToSlip));
+                events.push(event(time, EventKind::SlipToStick));
             }
             reversal = Some(time);
         }
@@ -271,17 +271,16 @@ fn restored(flow: &SlowFlow, slow: &SlowState) -> State {
 fn quintic(left: &Knot, right: &Knot, time: f64) -> [f64; 5] {
     let h = right.time - left.time;
     let t = (time - left.time) / h;
-    let (t2, t3) = (t * t, t * t * t);
     let s = 1.0 - t;
     // Hermite's basis: value, rate and second derivative at the left end; those at the right end by t -> 1 - t.
-    let basis = |t: f64, t3: f64| {
+    let basis = |t: f64| {
+        let t3 = t * t * t;
         let fall = 1.0 - t3 * (10.0 - 15.0 * t + 6.0 * t * t);
         let rate = t - t3 * (6.0 - 8.0 * t + 3.0 * t * t);
         let bend = 0.5 * t * t * (1.0 - t).powi(3);
         [fall, rate, bend]
     };
-    let ([l0, l1, l2], [r0, r1, r2]) = (basis(t, t3), basis(s, s * s * s));
-    debug_assert!(t2 <= 1.0 + 1e-9);
+    let ([l0, l1, l2], [r0, r1, r2]) = (basis(t), basis(s));
     std::array::from_fn(|i| {
         l0 * left.y[i]
             + r0 * right.y[i]

@@ -28,6 +28,10 @@ impl Pchip {
         Self { nodes, values, slopes }
     }
 
+    pub(super) fn nodes(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.nodes.iter().copied().zip(self.values.iter().copied())
+    }
+
     /// Value and slope; `x` lies between the first and the last node.
     pub(super) fn evaluate(&self, x: f64) -> (f64, f64) {
         let i = self.nodes.partition_point(|node| *node <= x).clamp(1, self.nodes.len() - 1) - 1;

@@ -5,6 +5,7 @@
 
 use super::describing::DescribingFunction;
 use super::error::AveragingError;
+use super::fixed_points::fixed_point;
 use super::motion::{SlowMotion, SlowState};
 use super::slow_flow::SlowFlow;
 use super::torus::carried;
@@ -80,6 +81,16 @@ impl RestoredSlowFlow {
             (energy.at_frequency(w), 0.0)
         });
         Ok(SlowState { amplitudes: amplitudes(w), phase: 0.0 })
+    }
+
+    /// The state on the slow flow's limit cycle at a reversal of mass 1 from its positive side.
+    ///
+    /// # Errors
+    /// [`AveragingError::NoLimitCycle`] where there is none before the fold, and [`AveragingError::NoConvergence`].
+    pub fn limit_cycle(&self) -> Result<State, AveragingError> {
+        let point = fixed_point(&self.slow)?;
+        let [a, re, im] = point.state.into();
+        Ok(State::two_mass([a, re, 0.0, -point.angular_frequency * im, a.min(1.0)]))
     }
 
     fn sampled(&self, motion: &SlowMotion, sampling: Sampling) -> Result<Trajectory, AveragingError> {

@@ -96,10 +96,22 @@ impl SlowFlow {
     /// The field and its derivatives at a slow state with `a1 > 0`. Beyond the energies of w(E) the last frequency is held.
     #[must_use]
     pub fn slow_rate(&self, slow: &Vector3<f64>) -> SlowRate {
+        self.rate_with(slow, |gain| gain)
+    }
+
+    /// As [`Self::slow_rate`], with the derivatives taken while w is held at its value.
+    #[must_use]
+    pub fn slow_rate_at_held_frequency(&self, slow: &Vector3<f64>) -> SlowRate {
+        self.rate_with(slow, |_| 0.0)
+    }
+
+    /// `weigh` acts on dw/dE.
+    fn rate_with(&self, slow: &Vector3<f64>, weigh: impl Fn(f64) -> f64) -> SlowRate {
         let (a, b) = (slow[0], Complex::new(slow[1], slow[2]));
         let (p, d) = (&self.parameters, DescribingFunction::at(a));
         let energy = self.energy(&d, [b.re, b.im]);
         let (w, gain) = self.frequency.implicit(&energy);
+        let gain = weigh(gain);
         let c = Coefficients::new(p, &d, w);
         let scale = -I / (2.0 * w);
         let (g1, g2) = (scale * (c.first * a + c.coupling * b), scale * (c.second * b + c.coupling * a));

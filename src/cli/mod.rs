@@ -24,6 +24,7 @@ mod progress;
 mod render;
 mod run;
 mod simulate;
+mod slow_flow;
 mod story;
 mod trajectory_table;
 
@@ -59,6 +60,7 @@ enum Command {
     Poincare(poincare::PoincareArgs),
     Diagram(diagram::DiagramArgs),
     Conformance(conformance::ConformanceArgs),
+    SlowFlow(slow_flow::SlowFlowArgs),
     Paper(paper::PaperArgs),
     Modes(modes::ModesArgs),
     Disk(disk::DiskArgs),
@@ -110,6 +112,7 @@ pub fn main() -> ExitCode {
         Command::Poincare(args) => poincare::run(&args),
         Command::Diagram(args) => diagram::run(&args),
         Command::Conformance(args) => conformance::run(&args),
+        Command::SlowFlow(args) => slow_flow::run(&args),
         Command::Paper(args) => paper::run(&args),
         Command::Modes(args) => modes::run(&args),
         Command::Disk(args) => disk::run(&args),

@@ -1,5 +1,6 @@
 //! A case set in motion: by the engine and by the exact solution, from the same start and sampled at the same times.
 
+use crate::averaging::{EnergyDefinition, EnergyFrequency, Interpolation, RestoredSlowFlow};
 use crate::compare::{self, Expectation};
 use crate::dynamics::{Flow, Sampling, State, Trajectory};
 use crate::engine::{self, EngineFlow, EngineInfo, EngineSettings, Recording};
@@ -8,6 +9,7 @@ use crate::model::{RigParameters, TwoMassRig};
 use crate::orbit::{OrbitError, PeriodicOrbit, limit_cycle};
 use crate::scene::{Case, Initial, Joints, MotionKind, Precision, Scheme};
 use anyhow::{Context, ensure};
+use std::sync::Arc;
 
 /// Longest time between two samples of a filmed motion: lines drawn through them look smooth.
 const FINEST: f64 = 0.04;
@@ -118,6 +120,19 @@ pub fn exactly(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result
             exact::TwoMassFlow::new(&rig).with_amplitude_bound(case.amplitude_bound)?.trajectory(start, sampling)?
         }
     })
+}
+
+/// The motion of the slow flow. The bound of the case is lowered to the amplitudes for which its frequency is known.
+pub fn by_slow_flow(
+    case: &Case,
+    energy: EnergyDefinition,
+    start: &State,
+    sampling: Sampling,
+) -> anyhow::Result<Trajectory> {
+    ensure!(case.prescribed.is_none(), "the slow flow knows no prescribed motion: take --with exact or rapier");
+    let frequency = Arc::new(EnergyFrequency::new(case.parameters, energy, Interpolation::Converged)?);
+    let flow = RestoredSlowFlow::at(case.parameters, &frequency)?.with_amplitude_bound(case.amplitude_bound)?;
+    Ok(flow.trajectory(start, sampling)?)
 }
 
 /// Name and version of the engine a case asks for.

@@ -1,7 +1,8 @@
-//! `simulate`: one trajectory, exact or in the engine.
+//! `simulate`: one trajectory, exact, in the engine, or of the slow flow.
 
 use super::case_args::{EngineArgs, RigArgs, check, load, parse_initial};
 use super::common::{Common, Document, print};
+use super::slow_flow::Energy;
 use super::trajectory_table::{Provenance, events_table, to_table};
 use super::{Verdict, motions};
 use crate::dynamics::{Sampling, State, Trajectory};
@@ -22,6 +23,18 @@ enum Solver {
     Exact,
     /// The rig in the Rapier engine.
     Rapier,
+    /// Amplitudes and phases from the averaged equations, the fast oscillation restored.
+    SlowFlow,
+}
+
+impl Solver {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Rapier => "rapier",
+            Self::SlowFlow => "slow-flow",
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -42,6 +55,9 @@ pub struct SimulateArgs {
     /// How to solve the equations of motion.
     #[arg(long = "with", value_enum, default_value_t = Solver::Exact)]
     solver: Solver,
+    /// For the slow flow: definition of the averaged energy of the Jenkins spring, on which its frequency depends.
+    #[arg(long, value_enum)]
+    energy: Option<Energy>,
     /// End of the trajectory, in the units of the scene; 200 without a scene.
     #[arg(long, allow_hyphen_values = true)]
     t_end: Option<f64>,
@@ -69,7 +85,11 @@ pub struct SimulateArgs {
 pub fn run(args: &SimulateArgs) -> anyhow::Result<Verdict> {
     ensure!(
         args.solver == Solver::Rapier || !args.engine.is_given(),
-        "options of the engine decide nothing about the exact solution: add --with rapier or leave them out"
+        "options of the engine decide about the engine alone: add --with rapier or leave them out"
+    );
+    ensure!(
+        args.solver == Solver::SlowFlow || args.energy.is_none(),
+        "--energy decides about the slow flow alone: add --with slow-flow or leave it out"
     );
     ensure!(args.events.is_none() || args.events != args.common.output, "-o and --events name the same file: give two");
     let case = args.case()?;
@@ -80,7 +100,7 @@ pub fn run(args: &SimulateArgs) -> anyhow::Result<Verdict> {
         refuse_to_overwrite(path, &parameters, args.common.force)?;
     }
     let start = motions::start(&case)?;
-    let (solver, trajectory) = solve(args.solver, &case, &start, sampling)?;
+    let (solver, trajectory) = solve(args, &case, &start, sampling)?;
     let provenance = Provenance { case: &case, solver: &solver, parameters: parameters.clone() };
     if let Some(path) = &args.common.output {
         write_table(path, &to_table(&trajectory, &provenance, &scales)?)?;
@@ -92,9 +112,13 @@ pub fn run(args: &SimulateArgs) -> anyhow::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-fn solve(solver: Solver, case: &Case, start: &State, sampling: Sampling) -> anyhow::Result<(String, Trajectory)> {
-    Ok(match solver {
+fn solve(args: &SimulateArgs, case: &Case, start: &State, sampling: Sampling) -> anyhow::Result<(String, Trajectory)> {
+    Ok(match args.solver {
         Solver::Exact => ("exact".to_owned(), motions::exactly(case, start, sampling)?),
+        Solver::SlowFlow => {
+            let energy = args.energy.unwrap_or_default();
+            ("slow-flow".to_owned(), motions::by_slow_flow(case, energy.definition(), start, sampling)?)
+        }
         Solver::Rapier => {
             let info = motions::engine_info(&motions::engine_settings(case, sampling));
             (info.to_string(), motions::in_engine(case, start, sampling)?.trajectory)
@@ -149,11 +173,14 @@ impl SimulateArgs {
             "xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma,
             "initial": case.initial, "prescribed": case.prescribed, "amplitude_bound": case.amplitude_bound,
             "t_end": case.duration, "sample": sampling.interval,
-            "with": if self.solver == Solver::Exact { "exact" } else { "rapier" },
+            "with": self.solver.word(),
             "units": if self.units == Units::Si { "si" } else { "nondimensional" },
         });
         if self.solver == Solver::Rapier {
             parameters["engine"] = json!(motions::engine_settings(case, *sampling));
+        }
+        if self.solver == Solver::SlowFlow {
+            parameters["energy"] = json!(self.energy.unwrap_or_default().definition());
         }
         parameters
     }

@@ -20,6 +20,8 @@ pub enum PaperError {
     #[error(transparent)]
     Exact(#[from] crate::exact::ExactError),
     #[error(transparent)]
+    Averaging(#[from] crate::averaging::AveragingError),
+    #[error(transparent)]
     Engine(#[from] crate::engine::EngineError),
     #[error(transparent)]
     Report(#[from] ReportError),

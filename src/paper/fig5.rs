@@ -8,6 +8,8 @@ use super::error::PaperError;
 use super::exact::{branch, diagram, fold, secondary_hopf, values};
 use super::fig1::{branch_series, diverging, steady_series, steady_table};
 use super::item::{Case, Findings, Origin, PaperItem};
+use super::slow;
+use crate::averaging::SlowFlow;
 use crate::chaos::{DiagramRow, MotionClass, divergence_edge};
 use crate::orbit::Branch;
 use crate::report::{Figure, Panel, Series, Style, Tint};
@@ -17,7 +19,7 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Paper("Fig. 5"),
     title: "amplitude diagram",
     caption: "Largest and smallest maximum of |x₁| in the steady motion over ξ₁, for motions of the exact system started on the limit cycle with x₂ moved by 0.001, coloured by the kind of motion. \
-        The line is the limit cycle, the marker the secondary Hopf point from its Floquet multipliers. Kinks of the upper edge at ξ₁ = −0.130 and −0.145 are doublings of the torus. \
+        Small black dots: the same from the slow flow, started beside its own limit cycle. The line is the exact limit cycle, the circle its secondary Hopf point from Floquet multipliers, the cross that of the slow flow from eigenvalues. Kinks of the upper edge at ξ₁ = −0.130 and −0.145 are doublings of the torus. \
         Shaded: motions that diverge. Each motion is watched for 8000 time units after it has settled.",
     revision: 2,
     compute,
@@ -38,6 +40,8 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let mut findings = Findings::default();
     findings.checks = checks(case, &rows, hopf.map(|at| at.0), end.abs() / (count - 1) as f64);
     let edge = divergence_edge(&rows);
+    let slow = Slow::compute(case, end)?;
+    slow.describe(case, &mut findings, end);
     if let Some((xi1, _)) = hopf {
         findings.number("secondary Hopf, exact", format!("ξ₁ = {xi1:.9}"));
     }
@@ -55,8 +59,9 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         shown(first(&rows, MotionClass::Chaos)),
         shown(edge.map(|edge| edge.first_diverged))
     );
-    findings.figure = Some(figure(&branch, &rows, hopf, end));
+    findings.figure = Some(figure(&branch, &rows, hopf, &slow, end));
     findings.table("exact", steady_table(&rows));
+    findings.table("slow", steady_table(&slow.rows));
     Ok(findings)
 }
 
@@ -108,7 +113,49 @@ fn checks(case: &Case, rows: &[DiagramRow], hopf: Option<f64>, spacing: f64) -> 
     checks
 }
 
-fn figure(branch: &Branch, rows: &[DiagramRow], hopf: Option<(f64, f64)>, end: f64) -> Figure {
+/// The same of the slow flow.
+struct Slow {
+    rows: Vec<DiagramRow>,
+    hopf: (f64, f64),
+}
+
+impl Slow {
+    fn compute(case: &Case, end: f64) -> Result<Self, PaperError> {
+        let rows = slow::diagram(case, end, case.choose(341, 34))?;
+        let flow = SlowFlow::new(case.parameters, slow::frequency(case.parameters)?)?;
+        let point = slow::first_hopf(&flow)?.point;
+        Ok(Self { rows, hopf: (point.xi1, point.state[0]) })
+    }
+
+    fn describe(&self, case: &Case, findings: &mut Findings, end: f64) {
+        let spacing = end.abs() / self.rows.len() as f64;
+        let edge = divergence_edge(&self.rows).map(|edge| edge.first_diverged);
+        findings.number("secondary Hopf, slow flow", format!("ξ₁ = {:.9}", self.hopf.0));
+        for (name, value) in
+            [("first chaos, slow flow", first(&self.rows, MotionClass::Chaos)), ("first divergence, slow flow", edge)]
+        {
+            findings.number(name, value.map_or("none".to_owned(), |xi1| format!("ξ₁ = {xi1:.5}")));
+        }
+        findings.checks.extend([
+            case.nominal_only(Check::near(
+                "secondary Hopf of the slow flow",
+                -0.035_002_1,
+                self.hopf.0,
+                1e-6,
+                "computed outside this project to seven decimal places",
+            )),
+            case.nominal_only(Check::near(
+                "first divergence of the slow flow",
+                -0.1635,
+                edge.unwrap_or(f64::NAN),
+                0.005_f64.max(2.0 * spacing),
+                "known as “about −0.1635, the edge is not sharp”: chaotic transients end at random times; or two rows if wider",
+            )),
+        ]);
+    }
+}
+
+fn figure(branch: &Branch, rows: &[DiagramRow], hopf: Option<(f64, f64)>, slow: &Slow, end: f64) -> Figure {
     let mut panel = Panel::new("damping of the in-phase mode ξ₁", "amplitude a₁, max and min")
         .x_range(end, 0.0)
         .y_range(0.5, AMPLITUDE);
@@ -117,6 +164,11 @@ fn figure(branch: &Branch, rows: &[DiagramRow], hopf: Option<(f64, f64)>, end: f
     }
     panel = steady_series(rows).into_iter().fold(panel, Panel::series);
     panel = branch_series(branch).into_iter().fold(panel, Panel::series);
+    let pairs =
+        slow.rows.iter().flat_map(|row| [row.a1_max, row.a1_min].into_iter().flatten().map(|a1| (row.value, a1)));
+    panel = panel
+        .series(Series::new("slow flow, max and min", pairs.collect(), Style::Cloud, Tint::Black))
+        .series(Series::new("secondary Hopf (slow flow)", vec![slow.hopf], Style::Crosses, Tint::Purple));
     let at = hopf.into_iter().collect();
     Figure::single(panel.series(Series::new("secondary Hopf (exact)", at, Style::Rings, Tint::Purple)))
 }

@@ -15,8 +15,12 @@ mod exact;
 mod fig1;
 mod fig10;
 mod fig2;
+mod fig3;
+mod fig4;
 mod fig5;
 mod fig6;
+mod fig7;
+mod fig8;
 mod fig9;
 mod index;
 mod item;
@@ -24,6 +28,8 @@ mod lyapunov;
 mod rotation;
 mod run;
 mod schematic;
+mod slow;
+mod table1;
 
 pub use check::{Check, Value};
 pub use error::PaperError;
@@ -35,8 +41,13 @@ pub use run::{ItemResult, News, run, stored};
 pub const ITEMS: &[PaperItem] = &[
     fig1::ITEM,
     fig2::ITEM,
+    fig3::ITEM,
+    fig4::ITEM,
     fig5::ITEM,
     fig6::ITEM,
+    fig7::ITEM,
+    fig8::ITEM,
+    table1::ITEM,
     fig9::ITEM,
     fig10::ITEM,
     lyapunov::ITEM,

@@ -2,6 +2,9 @@
 
 mod asymmetric;
 mod averaging;
+mod averaging_flow;
+mod averaging_perturbation;
+mod averaging_tori;
 #[cfg(feature = "render")]
 mod back_ends;
 mod branches;
@@ -12,6 +15,8 @@ mod chain;
 mod cli;
 #[cfg(feature = "cli")]
 mod cli_analysis;
+#[cfg(feature = "cli")]
+mod cli_slow_flow;
 #[cfg(feature = "engine")]
 mod compare;
 #[cfg(feature = "cli")]

@@ -8,7 +8,9 @@ use super::analysis::window;
 use super::case_args::{EngineArgs, RigArgs, check, load};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
+use super::slow_flow::Energy;
 use super::{Verdict, motions};
+use crate::averaging::{EnergyFrequency, Interpolation};
 use crate::chaos::{DiagramPlan, DiagramRow, divergence_edge};
 use crate::dynamics::Sampling;
 use crate::engine::EngineSettings;
@@ -18,9 +20,10 @@ use crate::store::{Column, ColumnData, Table, write_table};
 use anyhow::ensure;
 use clap::Args;
 pub use motion::prepare;
-use motion::{ENGINE_STEPS, Solver, in_engine, start};
+use motion::{ENGINE_STEPS, Solver, in_engine, slow_flow, start};
 use serde_json::{Value, json};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 const MOST_VALUES: usize = 1_000_000;
 
@@ -30,6 +33,7 @@ const MOST_VALUES: usize = 1_000_000;
 /// saved as they come, and an interrupted diagram goes on where it was.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  stickslip diagram --from 0 --to -0.2 --count 200 -o diagram.csv\n  \
+    stickslip diagram --with slow-flow --from 0 --to -0.17 --count 341 --plot slow.svg\n  \
     stickslip diagram --with rapier --count 41 --plot engine.svg")]
 pub struct DiagramArgs {
     #[arg(long, allow_hyphen_values = true, default_value_t = 0.0)]
@@ -48,6 +52,9 @@ pub struct DiagramArgs {
     /// How to solve the equations of motion; rapier takes 256 steps a period unless told otherwise.
     #[arg(long = "with", value_enum, default_value_t = Solver::Exact)]
     solver: Solver,
+    /// For the slow flow: definition of the averaged energy of the Jenkins spring, on which its frequency depends.
+    #[arg(long, value_enum)]
+    energy: Option<Energy>,
     /// Take the rig, and for rapier the engine's settings, of this scene.
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
@@ -72,7 +79,11 @@ pub fn run(args: &DiagramArgs) -> anyhow::Result<Verdict> {
     );
     ensure!(
         args.solver == Solver::Rapier || !args.engine.is_given(),
-        "options of the engine decide nothing about the exact solution: add --with rapier or leave them out"
+        "options of the engine decide about the engine alone: add --with rapier or leave them out"
+    );
+    ensure!(
+        args.solver == Solver::SlowFlow || args.energy.is_none(),
+        "--energy decides about the slow flow alone: add --with slow-flow or leave it out"
     );
     let case = args.case()?;
     let p = case.parameters;
@@ -85,12 +96,20 @@ pub fn run(args: &DiagramArgs) -> anyhow::Result<Verdict> {
     if args.solver == Solver::Rapier {
         parameters["engine"] = json!(engine);
     }
+    if args.solver == Solver::SlowFlow {
+        parameters["energy"] = json!(args.energy.unwrap_or_default().definition());
+    }
     if let Some(path) = &args.common.output {
         super::simulate::refuse_to_overwrite(path, &parameters, args.common.force)?;
     }
     let at = |xi1| RigParameters { xi1, ..p };
     let rows = match args.solver {
         Solver::Exact => saved::rows(args, &plan, &parameters, |xi1| prepare(at(xi1))),
+        Solver::SlowFlow => {
+            let energy = args.energy.unwrap_or_default().definition();
+            let frequency = Arc::new(EnergyFrequency::new(p, energy, Interpolation::Converged)?);
+            saved::rows(args, &plan, &parameters, |xi1| Ok(slow_flow(at(xi1), &frequency)?))
+        }
         Solver::Rapier => {
             saved::rows(args, &plan, &parameters, |xi1| Ok((in_engine(at(xi1), engine)?, start(at(xi1))?)))
         }

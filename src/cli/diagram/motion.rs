@@ -2,6 +2,7 @@
 
 use super::super::analysis::exact_flow;
 use super::super::motions;
+use crate::averaging::{AveragingError, EnergyFrequency, RestoredSlowFlow};
 use crate::chaos::Criteria;
 use crate::dynamics::{Sampled, State};
 use crate::engine::{EngineError, EngineFlow, EngineSettings};
@@ -10,6 +11,7 @@ use crate::model::{ParameterError, RigParameters, TwoMassRig};
 use crate::orbit::OrbitError;
 use clap::ValueEnum;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Start where there is no limit cycle: beyond the slip limit, as its orbits are.
 const ELSEWHERE: [f64; 5] = [1.2, 0.9, 0.0, -0.5, 1.0];
@@ -24,6 +26,8 @@ pub enum Solver {
     Exact,
     /// The rig in the Rapier engine.
     Rapier,
+    /// Amplitudes and phases from the averaged equations, the fast oscillation restored.
+    SlowFlow,
 }
 
 impl Solver {
@@ -31,6 +35,7 @@ impl Solver {
         match self {
             Self::Exact => "exact",
             Self::Rapier => "rapier",
+            Self::SlowFlow => "slow-flow",
         }
     }
 
@@ -38,7 +43,7 @@ impl Solver {
     pub fn criteria(self, engine: &EngineSettings) -> Criteria {
         let exact = Criteria::default();
         match self {
-            Self::Exact => exact,
+            Self::Exact | Self::SlowFlow => exact,
             Self::Rapier => Criteria { recurrence: exact.recurrence.max(engine.step * engine.step), ..exact },
         }
     }
@@ -53,6 +58,8 @@ pub enum Unprepared {
     Parameter(#[from] ParameterError),
     #[error(transparent)]
     Engine(#[from] EngineError),
+    #[error(transparent)]
+    Averaging(#[from] AveragingError),
 }
 
 /// Beside the exact limit cycle, where there is one.
@@ -66,6 +73,23 @@ pub fn start(p: RigParameters) -> Result<State, OrbitError> {
         Err(OrbitError::NoGuess { .. } | OrbitError::BeyondFold { .. }) => Ok(State::two_mass(ELSEWHERE)),
         Err(error) => Err(error),
     }
+}
+
+/// The slow flow and a state beside its own limit cycle, where there is one; `frequency` is that of the same xi2, kappa and gamma.
+pub fn slow_flow(
+    p: RigParameters,
+    frequency: &Arc<EnergyFrequency>,
+) -> Result<(RestoredSlowFlow, State), AveragingError> {
+    let flow = RestoredSlowFlow::at(p, frequency)?;
+    let state = match flow.limit_cycle() {
+        Ok(mut state) => {
+            state.positions[1] += 0.001;
+            state
+        }
+        Err(AveragingError::NoLimitCycle { .. }) => State::two_mass(ELSEWHERE),
+        Err(error) => return Err(error),
+    };
+    Ok((flow, state))
 }
 
 pub fn in_engine(p: RigParameters, settings: EngineSettings) -> Result<Sampled<EngineFlow>, Unprepared> {
