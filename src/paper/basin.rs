@@ -17,7 +17,7 @@ pub(super) const ITEM: PaperItem = PaperItem {
     title: "which starts stay bounded",
     caption: "Initial positions (x₁, x₂), at rest with a relaxed slider, from which the exact motion stays bounded for 3000 time units (blue; grey: for at least 300), at three values of ξ₁. White: diverges sooner. \
         Beyond some distance friction cannot hold the self-excitation; the bounded region shrinks as the self-excitation grows.",
-    revision: 2,
+    revision: 3,
     compute,
 };
 
@@ -75,7 +75,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
             ("life_time_at_most_3000", cells().map(|(basin, n)| basin.lives[n]).collect()),
         ]),
     );
-    findings.figure = Some(Figure::grid(3, (1200, 450), basins.iter().map(panel).collect()));
+    findings.figure = Some(Figure::grid(3, (1200, 436), basins.iter().map(panel).collect()));
     Ok(findings)
 }
 

@@ -81,7 +81,7 @@ fn settling_time(parameters: RigParameters, [shortest, longest]: [f64; 2]) -> f6
 
 /// What is looked at of a motion beside the limit cycle: `length` after it has settled.
 pub(super) fn settled(case: &Case, parameters: RigParameters, length: f64) -> Window {
-    let bounds = case.choose([3000.0, 60_000.0], [1000.0, 4000.0]);
+    let bounds = [3000.0, case.choose(60_000.0, 10_000.0)];
     Window { transient: settling_time(parameters, bounds), length }
 }
 
@@ -95,7 +95,7 @@ pub(super) fn values(from: f64, to: f64, count: usize) -> Vec<f64> {
 pub(super) fn diagram(case: &Case, parameters: RigParameters, xi1: &[f64]) -> Result<Vec<DiagramRow>, PaperError> {
     let row = |&xi1: &f64| {
         let at = RigParameters { xi1, ..parameters };
-        let window = settled(case, at, case.choose(8000.0, 1000.0));
+        let window = settled(case, at, 8000.0);
         let plan = DiagramPlan { window, ..DiagramPlan::default() };
         let rows = amplitude_diagram(&[xi1], &plan, &[], |_| beside_the_cycle(at), |_, _, _| {})?;
         Ok(rows)
@@ -124,6 +124,6 @@ pub(super) fn divergence(parameters: RigParameters, step: f64, lowest: f64) -> R
 /// Lyapunov spectrum of the motion beside the limit cycle; `None` where it diverges.
 pub(super) fn spectrum(case: &Case, parameters: RigParameters) -> Result<Option<LyapunovSpectrum>, PaperError> {
     let (flow, start) = beside_the_cycle(parameters)?;
-    let plan = LyapunovPlan::new(settled(case, parameters, case.choose(30_000.0, 3000.0)));
+    let plan = LyapunovPlan::new(settled(case, parameters, 30_000.0));
     Ok(lyapunov_spectrum(&flow, &start, plan)?.spectrum().cloned())
 }

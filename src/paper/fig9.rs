@@ -18,8 +18,8 @@ pub(super) const ITEM: PaperItem = PaperItem {
     title: "critical damping of the secondary Hopf bifurcation",
     caption: "(a) Equation (31), normalised: the limit cycle loses stability on the upper curve (start) and would regain it on the lower one (end); both meet in a cusp at ν = πκ²/(γξ₂) = 3. Circles: exact limit cycles, with κ varied at the given γ and ξ₂. \
         (b)–(d) The same over ξ₂, κ and γ: equation (31) (pink) and exact points from Floquet multipliers (black). Grey: the motion started beside the limit cycle diverges within 6500 time units; \
-        an end point inside is never reached by increasing the self-excitation.",
-    revision: 1,
+        an end point inside is never reached by increasing the self-excitation. Exact points are shown up to the fold of the limit cycle; some sets have a third, where stability is lost again.",
+    revision: 2,
     compute,
 };
 
@@ -52,7 +52,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         if parameter == RigParameter::Kappa {
             panels.insert(0, normalised(case, &rows));
         }
-        if let Some((low, high)) = regained(&rows) {
+        for (low, high) in regained(&rows) {
             reached += &format!(" {symbol} from {low:.3} to {high:.3};");
         }
         panels.push(panel(&rows, parameter, (from, to), symbol, name));
@@ -96,12 +96,12 @@ fn row(case: &Case, parameter: RigParameter, value: f64) -> Result<Row, PaperErr
     })
 }
 
-/// Range of the varied parameter in which the limit cycle regains stability before motions diverge.
-fn regained(rows: &[Row]) -> Option<(f64, f64)> {
+/// Ranges of the varied parameter in which the limit cycle regains stability before motions diverge, from first to last row.
+fn regained(rows: &[Row]) -> Vec<(f64, f64)> {
     let inside =
-        |row: &&Row| row.exact.get(1).is_some_and(|end| row.divergence.is_none_or(|divergence| *end > divergence));
-    let found = || rows.iter().filter(inside).map(|row| row.varied);
-    found().next().map(|first| (first, found().fold(first, f64::max)))
+        |row: &Row| row.exact.get(1).is_some_and(|end| row.divergence.is_none_or(|divergence| *end > divergence));
+    let runs = rows.chunk_by(|a, b| inside(a) == inside(b)).filter(|run| inside(&run[0]));
+    runs.map(|run| (run[0].varied, run[run.len() - 1].varied)).collect()
 }
 
 /// One row of the test of order.

@@ -179,3 +179,26 @@ fn draw_entry<B: DrawingBackend>(canvas: &mut Canvas<'_, B>, entry: &Entry, (x, 
     let look = Lettering { across: HPos::Left, ..Lettering::centred(LETTERS) };
     canvas.text((x + SAMPLE + GAP, y), &entry.label, look)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Series;
+
+    /// The chosen corner of a panel from 0 to 1 with these points.
+    fn corner(points: Vec<Point>) -> Option<Area> {
+        let series = Series::new("what is shown", points, Style::Dots, Tint::Blue);
+        let panel = Panel::new("x", "y").x_range(0.0, 1.0).y_range(0.0, 1.0).series(series);
+        let area = Area { left: 0.0, top: 0.0, right: 600.0, bottom: 400.0 };
+        free_corner(&entries(std::iter::once(&panel)), &panel, &Frame::new(&panel, area).unwrap())
+    }
+
+    #[test]
+    fn the_legend_goes_where_no_data_are_and_out_of_the_panel_if_they_are_everywhere() {
+        let middle = |area: Area| (area.left + area.right > 600.0, area.top + area.bottom > 400.0);
+        assert_eq!(corner(vec![]).map(middle), Some((true, false)), "upper right");
+        assert_eq!(corner(vec![(0.95, 0.95)]).map(middle), Some((false, false)), "upper left");
+        assert_eq!(corner(vec![(0.95, 0.95), (0.05, 0.95)]).map(middle), Some((true, true)), "lower right");
+        assert!(corner(vec![(0.95, 0.95), (0.05, 0.95), (0.95, 0.05), (0.05, 0.05)]).is_none());
+    }
+}
