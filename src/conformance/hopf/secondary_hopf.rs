@@ -137,6 +137,9 @@ pub fn phases(count: usize) -> Vec<f64> {
 }
 
 /// Hopf points at `count` phases ([`phases`]), computed in parallel, in their order.
+///
+/// # Errors
+/// That of the first phase that has none; as [`secondary_hopf`].
 pub fn over_phases(problem: &CycleProblem<'_>, count: usize, guess: f64) -> Result<Vec<HopfPoint>, HopfError> {
     let at = |phase| secondary_hopf(&CycleProblem { phase, ..*problem }, guess);
     let found: Vec<_> = phases(count).into_par_iter().map(at).collect();
