@@ -2,6 +2,7 @@
 
 use super::common::print;
 use super::{Cli, Verdict};
+use crate::conformance::Report;
 use crate::scene::Scene;
 use anyhow::Context;
 use clap::{Args, CommandFactory, ValueEnum};
@@ -10,6 +11,8 @@ use clap_complete::Shell;
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum SchemaName {
     Scene,
+    /// `report.json` of `conformance`.
+    Conformance,
 }
 
 #[derive(Debug, Args)]
@@ -26,8 +29,11 @@ pub struct CompletionsArgs {
 }
 
 pub fn schema(args: &SchemaArgs) -> anyhow::Result<Verdict> {
-    let SchemaName::Scene = args.name;
-    print(&serde_json::to_string_pretty(&Scene::json_schema()).context("schema")?)?;
+    let schema = match args.name {
+        SchemaName::Scene => Scene::json_schema(),
+        SchemaName::Conformance => Report::json_schema(),
+    };
+    print(&serde_json::to_string_pretty(&schema).context("schema")?)?;
     Ok(Verdict::Done)
 }
 

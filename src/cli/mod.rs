@@ -4,6 +4,7 @@ mod analysis;
 mod branch;
 mod case_args;
 mod common;
+mod conformance;
 mod diagram;
 mod film;
 mod generate;
@@ -11,6 +12,7 @@ mod hopf;
 mod lyapunov;
 mod motions;
 mod orbit;
+mod paper;
 mod plot;
 mod poincare;
 mod progress;
@@ -47,6 +49,8 @@ enum Command {
     Lyapunov(lyapunov::LyapunovArgs),
     Poincare(poincare::PoincareArgs),
     Diagram(diagram::DiagramArgs),
+    Conformance(conformance::ConformanceArgs),
+    Paper(paper::PaperArgs),
     /// Print the JSON Schema of scene files.
     Schema(generate::SchemaArgs),
     /// Print shell completions.
@@ -91,6 +95,8 @@ pub fn main() -> ExitCode {
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Poincare(args) => poincare::run(&args),
         Command::Diagram(args) => diagram::run(&args),
+        Command::Conformance(args) => conformance::run(&args),
+        Command::Paper(args) => paper::run(&args),
         Command::Schema(args) => generate::schema(&args),
         Command::Completions(args) => generate::completions(&args),
         Command::Man => generate::man(),

@@ -94,6 +94,20 @@ impl Configuration {
         })
     }
 
+    /// For readers: `f64, impulse joints, 1 substep, second-order recipe`.
+    #[must_use]
+    pub fn label(self) -> String {
+        let Self { precision, joints, mechanism, substeps, scheme } = self;
+        let scheme = match scheme {
+            Scheme::SecondOrder => "half-step start, predicted velocity",
+            Scheme::LaggingDamping => "half-step start, late velocity",
+            Scheme::Plain => "velocity at face value",
+        };
+        let mechanism = if mechanism == Mechanism::Hook { String::new() } else { format!("{}, ", mechanism.word()) };
+        let plural = if substeps == 1 { "" } else { "s" };
+        format!("{}, {} joints, {mechanism}{substeps} substep{plural}, {scheme}", precision.word(), joints.word())
+    }
+
     #[must_use]
     pub fn settings(self, step: f64) -> EngineSettings {
         let Self { precision, joints, substeps, scheme, .. } = self;

@@ -5,16 +5,23 @@
 //! [`Configuration`], and each yields [`Row`]s: a number, its prediction, its exact value, and two separate judgements (see [`Row`]'s
 //! module): a [`Verdict`] on the prediction, and [`Physics`] on the truth.
 
+mod advice;
+mod changes;
 mod configuration;
+mod cost;
+mod document;
 mod error;
 mod exchange;
 mod experiment;
 mod fit;
+pub mod hopf;
 mod ladder;
 pub mod linear_mechanisms;
 mod modal_rows;
 pub mod native_friction;
 pub mod oscillation;
+mod page;
+mod plan;
 mod registry;
 mod row;
 mod scenario;
@@ -23,15 +30,22 @@ pub mod slider_map;
 mod switching;
 mod theory;
 
+pub use advice::{Advice, Fewest, HOPF_QUANTITY, advice};
+pub use changes::{Change, Changes};
 pub use configuration::{Configuration, Mechanism};
+pub use cost::costs;
+pub use document::{Cost, Machine, Parameters, Report, ScenarioNote, Timing};
 pub use error::ConformanceError;
 pub use exchange::{Score, ScoreCheck, Setup};
 pub use experiment::{
-    Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, finish_ladder, hook_cases, ladder, tally,
+    Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, bounded_row, finish_ladder, hook_cases,
+    is_notable, ladder, tally,
 };
 pub use fit::fit_modes;
-pub use ladder::{Ladder, ORDER_TOLERANCE, rounding_floor};
+pub use ladder::{Ladder, ORDER_TOLERANCE, Rung, rounding_floor};
 pub use modal_rows::{FORMULA_TOLERANCE, ModeAt};
+pub use page::{html, markdown};
+pub use plan::{Archive, Progress, compute, scenario_named};
 pub use registry::registry;
 pub use row::{Basis, Judgement, Physics, Row, Subject, Verdict};
 pub use scenario::{Bench, Case, Depth, Rapier, Scenario, subject};

@@ -1,11 +1,9 @@
 //! Rows about the frequency and damping of a mode.
 
-use super::configuration::Configuration;
 use super::experiment::{RIGHT, finish_ladder};
 use super::ladder::{Ladder, ORDER_TOLERANCE};
 use super::row::{Basis, Judgement, Row, Subject};
 use super::theory::hook_damping;
-use crate::engine::Scheme;
 use crate::model::LinearMode;
 use std::f64::consts::TAU;
 
@@ -33,6 +31,16 @@ pub struct ModeAt<'a> {
 }
 
 impl ModeAt<'_> {
+    /// Adds the errors of frequency and damping to their ladders.
+    pub fn climb(&self, ladders: &mut [Ladder], step: f64) {
+        let Self { found, predicted, truth, rounding, .. } = self;
+        let parts = |mode: &LinearMode| [mode.angular_frequency, mode.damping];
+        for (i, ladder) in ladders.iter_mut().take(2).enumerate() {
+            let error = |mode| (parts(mode)[i] - parts(truth)[i]).abs();
+            ladder.push(step, error(found), *rounding, Some(error(predicted)));
+        }
+    }
+
     /// Frequency and damping against the difference equation and the exact mode.
     #[must_use]
     pub fn rows(&self) -> [Row; 2] {
@@ -84,30 +92,10 @@ impl ModeAt<'_> {
     }
 }
 
-/// Order of state errors of a linear motion: what the recipe does about damping matters only where there is some.
-#[must_use]
-pub fn state_order(configuration: Configuration, damped: bool) -> f64 {
-    match configuration.scheme {
-        Scheme::LaggingDamping if !damped && configuration.substeps == 1 => 2.0,
-        _ => configuration.expected_order(),
-    }
-}
-
-/// Adds the ladder rows about frequency and damping; none where the error of one is zero.
+/// Adds the ladder rows about frequency and damping; none about a damping whose error is zero.
 pub fn finish_modes(rows: &mut Vec<Row>, subject: &Subject, prefix: &str, ladders: [&Ladder; 2], damped: bool) {
-    let configuration = subject.configuration;
-    let recipe = configuration.expected_order() == 2.0;
-    let frequency = if recipe || !damped { 2.0 } else { 1.0 };
-    let damping = match (damped, configuration.substeps) {
-        (false, 1) => None,
-        (true, _) if recipe => Some(2.0),
-        _ => Some(1.0),
-    };
-    for ((quantity, ladder), order) in
-        [("angular_frequency", ladders[0]), ("damping", ladders[1])].into_iter().zip([Some(frequency), damping])
-    {
-        if let Some(order) = order {
-            finish_ladder(rows, subject, &format!("{prefix}{quantity}"), ladder, order, ORDER_TOLERANCE);
-        }
+    finish_ladder(rows, subject, &format!("{prefix}angular_frequency"), ladders[0], ORDER_TOLERANCE);
+    if damped || subject.configuration.substeps > 1 {
+        finish_ladder(rows, subject, &format!("{prefix}damping"), ladders[1], ORDER_TOLERANCE);
     }
 }

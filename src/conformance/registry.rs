@@ -3,7 +3,7 @@
 use super::scenario::Scenario;
 use super::scenarios::{
     Chaos, CoupledOscillators, EnergyLedger, FreeFlight, FrictionDecay, Hysteresis, JointDrift, LimitCycle,
-    LinearOscillator, MechanismFriction, MechanismLinear, NegativeDamping, Torus,
+    LinearOscillator, MechanismFriction, MechanismLinear, NegativeDamping, SecondaryHopf, Torus,
 };
 
 /// All scenarios.
@@ -17,6 +17,7 @@ pub fn registry() -> Vec<Box<dyn Scenario>> {
         Box::new(Hysteresis),
         Box::new(FrictionDecay),
         Box::new(LimitCycle),
+        Box::new(SecondaryHopf),
         Box::new(Torus),
         Box::new(Chaos),
         Box::new(EnergyLedger),

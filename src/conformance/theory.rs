@@ -70,45 +70,57 @@ impl DifferenceEquation {
     #[must_use]
     pub fn motion(&self, initial: &State, steps: u32, stride: u32) -> Trajectory {
         let State { positions: mut x, velocities, slider_forces: mut f } = initial.clone();
-        let mut a = self.acceleration(&x, &velocities, &f);
+        let mut a = self.acceleration_at(&x, &velocities, &f);
         let mut w: Vec<f64> = velocities.iter().zip(&a).map(|(v, a)| v - self.stagger * a).collect();
         if self.lagging {
-            a = self.acceleration(&x, &w, &f);
+            a = self.acceleration_at(&x, &w, &f);
         }
         let mut samples = vec![bare_sample(0.0, initial.clone())];
-        let h = self.step;
-        let mut told = w.clone();
         for i in 1..=steps {
-            let old: Vec<f64> = self.elongations(&x).collect();
-            for j in 0..x.len() {
-                x[j] += h * w[j] + self.lift * h * h * a[j];
-                w[j] += h * a[j];
-                told[j] = w[j] + self.prediction * a[j];
-            }
-            for (((element, force), new), old) in
-                self.chain.jenkins().iter().zip(&mut f).zip(self.elongations(&x)).zip(old)
-            {
-                *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
-            }
-            a = self.acceleration(&x, &told, &f);
+            a = self.advance(&mut x, &mut w, &mut f, &a);
+            let time = f64::from(i) * self.step;
             if x.iter().any(|x| x.abs() > DEFAULT_AMPLITUDE_BOUND) {
-                let outcome = Outcome::Diverged { time: f64::from(i) * h, bound: DEFAULT_AMPLITUDE_BOUND };
+                let outcome = Outcome::Diverged { time, bound: DEFAULT_AMPLITUDE_BOUND };
                 return Trajectory { samples, events: Vec::new(), outcome };
             }
             if i % stride == 0 {
-                let velocities = w.iter().zip(&a).map(|(w, a)| w + self.stagger * a).collect();
-                let state = State { positions: x.clone(), velocities, slider_forces: f.clone() };
-                samples.push(bare_sample(f64::from(i) * h, state));
+                let velocities = self.recorded(&w, &a);
+                samples.push(bare_sample(time, State { positions: x.clone(), velocities, slider_forces: f.clone() }));
             }
         }
         Trajectory { samples, events: Vec::new(), outcome: Outcome::Completed }
     }
 
-    fn elongations<'a>(&'a self, x: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        self.chain.jenkins().iter().map(|element| element.attachment.elongation(x))
+    /// One step under the acceleration `a`; returns the next one.
+    pub(super) fn advance(&self, x: &mut [f64], w: &mut [f64], f: &mut [f64], a: &[f64]) -> Vec<f64> {
+        let h = self.step;
+        let elongations = |x: &[f64]| -> Vec<f64> {
+            self.chain.jenkins().iter().map(|element| element.attachment.elongation(x)).collect()
+        };
+        let old = elongations(x);
+        for j in 0..x.len() {
+            x[j] += h * w[j] + self.lift * h * h * a[j];
+            w[j] += h * a[j];
+        }
+        for (((element, force), new), old) in self.chain.jenkins().iter().zip(f.iter_mut()).zip(elongations(x)).zip(old)
+        {
+            *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
+        }
+        self.acceleration(x, w, f, a)
     }
 
-    fn acceleration(&self, x: &[f64], u: &[f64], f: &[f64]) -> Vec<f64> {
+    /// Where the step before was made under the acceleration `past`.
+    pub(super) fn acceleration(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
+        let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
+        self.acceleration_at(x, &told, f)
+    }
+
+    /// `v = w + s a`
+    pub(super) fn recorded(&self, w: &[f64], a: &[f64]) -> Vec<f64> {
+        w.iter().zip(a).map(|(w, a)| w + self.stagger * a).collect()
+    }
+
+    fn acceleration_at(&self, x: &[f64], u: &[f64], f: &[f64]) -> Vec<f64> {
         let n = x.len();
         let mut a = vec![0.0; n];
         for (element, force) in self.chain.jenkins().iter().zip(f) {

@@ -6,6 +6,7 @@ use super::instant::Instant;
 use super::plant::{self, Blueprint, Carriages, Plant};
 use super::recorder::{Poses, Recorder, Recording};
 use super::settings::{EngineSettings, Scheme};
+use super::step_map::DiscreteState;
 use super::{EngineError, EngineInfo};
 use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
 use crate::model::{OscillatorChain, Range};
@@ -83,6 +84,10 @@ impl EngineFlow {
         self.run(initial, sampling, Poses::Keep)
     }
 
+    pub(super) fn chain(&self) -> &OscillatorChain {
+        &self.chain
+    }
+
     pub(super) fn geometry(&self) -> RigGeometry {
         self.geometry
     }
@@ -134,21 +139,23 @@ pub(super) fn steps_for(sampling: Sampling, step: f64) -> Result<u64, EngineErro
     Ok((sampling.t_end / step - super::recorder::SAME_TIME).ceil().max(0.0) as u64)
 }
 
-/// A motion under way. `force` and `acceleration` are those at `now`, which the next step will use.
-struct Run<'a> {
+/// A motion under way. `force` and `acceleration` are those at `now`, which the next step will use; `past_acceleration` is that of the
+/// step before.
+pub(super) struct Run<'a> {
     flow: &'a EngineFlow,
     plant: Box<dyn Plant>,
     before: Instant,
-    now: Instant,
+    pub(super) now: Instant,
     force: Vec<f64>,
     acceleration: Vec<f64>,
+    pub(super) past_acceleration: Vec<f64>,
     /// The engine's velocities `w` and what the force laws are told, see [`Scheme`].
-    engine_velocities: Vec<f64>,
+    pub(super) engine_velocities: Vec<f64>,
     known_velocities: Vec<f64>,
 }
 
 impl<'a> Run<'a> {
-    fn start(flow: &'a EngineFlow, initial: State) -> Result<Self, EngineError> {
+    pub(super) fn start(flow: &'a EngineFlow, initial: State) -> Result<Self, EngineError> {
         let n = flow.chain.oscillators();
         let contacts = initial.initial_contacts(&flow.chain);
         let now = Instant { time: 0.0, state: initial, contacts, drive_force: 0.0 };
@@ -158,20 +165,14 @@ impl<'a> Run<'a> {
         let acceleration: Vec<f64> = force.iter().zip(flow.chain.mass().iter()).map(|(f, m)| f / m).collect();
         let stagger = flow.settings.stagger();
         let engine_velocities: Vec<f64> = velocities.iter().zip(&acceleration).map(|(v, a)| v - stagger * a).collect();
-        let plant = plant::build(&Blueprint {
-            masses: flow.chain.mass().as_slice(),
-            positions: &now.state.positions,
-            velocities: &engine_velocities,
-            geometry: flow.geometry,
-            settings: flow.settings,
-            carriages: Carriages::Free,
-        })?;
+        let plant = build(flow, &now.state.positions, &engine_velocities)?;
         let mut run = Self {
             flow,
             plant,
             before: now.clone(),
             now,
             force,
+            past_acceleration: acceleration.clone(),
             acceleration,
             engine_velocities,
             known_velocities: velocities,
@@ -183,8 +184,37 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
+    /// Goes on from a complete discrete state, as if the steps before had been made in this run; time counts from here.
+    pub(super) fn resume(flow: &'a EngineFlow, from: &DiscreteState) -> Result<Self, EngineError> {
+        let engine_velocities = from.engine_velocities.clone();
+        let state = State {
+            positions: from.positions.clone(),
+            velocities: engine_velocities.clone(),
+            slider_forces: from.slider_forces.clone(),
+        };
+        let state = state.validated(&flow.chain)?;
+        let contacts = state.initial_contacts(&flow.chain);
+        let now = Instant { time: 0.0, state, contacts, drive_force: 0.0 };
+        let zeros = vec![0.0; flow.chain.oscillators()];
+        let mut past_acceleration = zeros.clone();
+        past_acceleration[..from.past_accelerations.len()].copy_from_slice(&from.past_accelerations);
+        let mut run = Self {
+            flow,
+            plant: build(flow, &now.state.positions, &engine_velocities)?,
+            before: now.clone(),
+            now,
+            force: zeros.clone(),
+            acceleration: zeros.clone(),
+            past_acceleration,
+            engine_velocities,
+            known_velocities: zeros,
+        };
+        run.see_forces()?;
+        Ok(run)
+    }
+
     /// Step number `n`, from `n h` to `(n + 1) h`.
-    fn step(&mut self, n: u64) -> Result<(), EngineError> {
+    pub(super) fn step(&mut self, n: u64) -> Result<(), EngineError> {
         let settings = &self.flow.settings;
         let time = (n + 1) as f64 * settings.step;
         self.plant.step_with_forces(&self.force).map_err(|found| EngineError::Quarantined { time, found })?;
@@ -194,12 +224,17 @@ impl<'a> Run<'a> {
         self.plant.read_velocities(&mut self.engine_velocities);
         self.check_finite()?;
         self.flow.move_sliders(&self.before.state, &mut self.now.state);
+        std::mem::swap(&mut self.past_acceleration, &mut self.acceleration);
+        self.see_forces()
+    }
 
-        // Prediction with the acceleration of the step that has just been made, then correction with the one found here.
+    /// Forces at `now`: velocities are predicted with the acceleration of the step that led here, then corrected with the one found.
+    fn see_forces(&mut self) -> Result<(), EngineError> {
+        let settings = &self.flow.settings;
         let stagger = settings.stagger();
         let prediction = if settings.scheme == Scheme::LaggingDamping { 0.0 } else { stagger };
         for (i, known) in self.known_velocities.iter_mut().enumerate() {
-            *known = self.engine_velocities[i] + prediction * self.acceleration[i];
+            *known = self.engine_velocities[i] + prediction * self.past_acceleration[i];
         }
         evaluate(self.flow, &self.now, &self.known_velocities, &mut self.force)?;
         for (i, mass) in self.flow.chain.mass().iter().enumerate() {
@@ -208,6 +243,12 @@ impl<'a> Run<'a> {
         }
         self.now.find_contacts(&self.flow.chain);
         Ok(())
+    }
+
+    /// Whether an element reached or left its limit in the last step.
+    pub(super) fn slider_switched(&self) -> bool {
+        let forces = self.before.state.slider_forces.iter().zip(&self.now.state.slider_forces);
+        forces.into_iter().any(|(before, now)| (before.abs() >= 1.0) != (now.abs() >= 1.0))
     }
 
     fn check_finite(&self) -> Result<(), EngineError> {
@@ -223,6 +264,17 @@ impl<'a> Run<'a> {
     fn largest_amplitude(&self) -> f64 {
         self.now.state.positions.iter().fold(0.0, |largest, x| largest.max(x.abs()))
     }
+}
+
+fn build(flow: &EngineFlow, positions: &[f64], velocities: &[f64]) -> Result<Box<dyn Plant>, EngineError> {
+    plant::build(&Blueprint {
+        masses: flow.chain.mass().as_slice(),
+        positions,
+        velocities,
+        geometry: flow.geometry,
+        settings: flow.settings,
+        carriages: Carriages::Free,
+    })
 }
 
 /// The forces of all laws at an instant, seen with the given velocities.

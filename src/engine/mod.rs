@@ -35,6 +35,7 @@ mod recorder;
 mod settings;
 #[expect(clippy::duplicate_mod, reason = "one source for both precisions; see world.rs")]
 mod single;
+mod step_map;
 mod work;
 
 pub use error::EngineError;
@@ -46,3 +47,4 @@ pub use info::EngineInfo;
 pub use prescribed::PrescribedFlow;
 pub use recorder::Recording;
 pub use settings::{EngineSettings, Joints, Precision, Scheme};
+pub use step_map::{DiscreteState, Stepped};

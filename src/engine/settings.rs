@@ -128,6 +128,12 @@ impl EngineSettings {
         Ok(self)
     }
 
+    /// Whether forces depend on the acceleration of the step before: only where the scheme predicts velocities with it.
+    #[must_use]
+    pub fn remembers_acceleration(&self) -> bool {
+        self.scheme == Scheme::SecondOrder
+    }
+
     /// `s` of [`Scheme`]: how long before the positions the engine's velocities are taken to be.
     pub(super) fn stagger(&self) -> f64 {
         match self.scheme {

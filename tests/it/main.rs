@@ -13,12 +13,18 @@ mod cli_analysis;
 mod compare;
 #[cfg(feature = "cli")]
 mod conformance;
+#[cfg(feature = "cli")]
+mod conformance_controls;
+#[cfg(feature = "cli")]
+mod conformance_exchange;
 #[cfg(feature = "engine")]
 mod convergence;
 #[cfg(feature = "render")]
 mod demonstration;
 mod derivatives;
 mod diagram;
+#[cfg(feature = "cli")]
+mod engine_map;
 #[cfg(feature = "engine")]
 mod engine_rig;
 mod events;

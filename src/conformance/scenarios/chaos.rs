@@ -2,11 +2,11 @@
 
 use super::rig_motion::{orbit, rig};
 use super::settled::Settled;
-use crate::conformance::experiment::{RIGHT, hook_cases};
+use crate::conformance::experiment::{RIGHT, bounded_row, hook_cases};
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::theory::DifferenceEquation;
 use crate::conformance::{Basis, ConformanceError, Judgement, Row};
-use crate::dynamics::{Flow, Sampling, Trajectory};
+use crate::dynamics::{Flow, Sampling};
 use crate::engine::trajectory_hash;
 use crate::exact::TwoMassFlow;
 
@@ -70,16 +70,8 @@ impl Scenario for Chaos {
             let found = bench.free(rig.chain(), case.configuration, step)?.trajectory(&start, sampling)?;
             let predicted =
                 DifferenceEquation::new(rig.chain(), case.configuration, step).motion(&start, steps * PERIODS, stride);
-            let bounded = |motion: &Trajectory| f64::from(u8::from(!motion.diverged()));
-            let judgement = Judgement {
-                basis: Basis::DifferenceEquation,
-                expected: bounded(&predicted),
-                found: bounded(&found),
-                tolerance: 0.0,
-                reason: "1: stays within |x| <= 1000, 0: diverges".to_owned(),
-            };
             let hash = trajectory_hash(&found);
-            rows.push(at.row("bounded", judgement).against(1.0, 0.0).with_trajectory(&hash));
+            rows.push(bounded_row(&at, &found, &predicted));
             if found.diverged() || predicted.diverged() {
                 continue;
             }

@@ -61,7 +61,7 @@ impl Scenario for CoupledOscillators {
             let measured = experiment.measure(bench, case.configuration, steps)?;
             let exact: Vec<State> = measured.times().iter().map(|&t| state(t)).collect();
             let error = measured.state_error(&exact);
-            states.points.push((step, error.found, measured.floor));
+            states.push(step, error.found, measured.floor, Some(error.expected));
             rows.push(error.row(&at, &measured, scale));
             let predicted = DifferenceEquation::new(&experiment.chain, case.configuration, step).modes();
             let fitted = fit_modes(&measured.positions(0), measured.interval(), &modes());
@@ -73,23 +73,12 @@ impl Scenario for CoupledOscillators {
             let rounding = measured.floor / 0.5 / experiment.duration();
             for (k, truth) in modes().into_iter().enumerate() {
                 let prefix = PREFIXES[k];
-                rows.extend(
-                    ModeAt { subject: &at, prefix, found: found[k], predicted: predicted[k], truth, rounding }.rows(),
-                );
-                let errors = [found[k].angular_frequency - truth.angular_frequency, found[k].damping - truth.damping];
-                for (ladder, error) in ladders[2 * k..].iter_mut().zip(errors) {
-                    ladder.points.push((step, error.abs(), rounding));
-                }
+                let mode = ModeAt { subject: &at, prefix, found: found[k], predicted: predicted[k], truth, rounding };
+                rows.extend(mode.rows());
+                mode.climb(&mut ladders[2 * k..], step);
             }
         }
-        finish_ladder(
-            &mut rows,
-            &subject,
-            "state_error",
-            &states,
-            case.configuration.expected_order(),
-            ORDER_TOLERANCE,
-        );
+        finish_ladder(&mut rows, &subject, "state_error", &states, ORDER_TOLERANCE);
         finish_modes(&mut rows, &subject, PREFIXES[0], [&ladders[0], &ladders[1]], true);
         finish_modes(&mut rows, &subject, PREFIXES[1], [&ladders[2], &ladders[3]], true);
         Ok(rows)

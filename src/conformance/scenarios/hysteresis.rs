@@ -70,7 +70,7 @@ impl Scenario for Hysteresis {
             let trajectory = flow.trajectory(&start, Sampling { interval: step, t_end: CYCLES * TAU })?;
             let floor = rounding_floor(case.configuration, AMPLITUDE, CYCLES * TAU, step);
             let found = loop_area(&trajectory);
-            areas.points.push((step, (found - area).abs(), floor));
+            areas.push(step, (found - area).abs(), floor, None);
             let reason = "each of two extremes is missed by up to a h²/8 and four corners are cut by as much: 6 a h²/8, and rounding; right: 1 %";
             let tolerance = 0.75 * AMPLITUDE * step * step + 16.0 * floor;
             let judgement =
@@ -81,15 +81,15 @@ impl Scenario for Hysteresis {
                 rows.push(at.failed("corner_time", "the corners are not those of the closed form"));
                 continue;
             };
-            corners.points.push((step, found, floor));
+            corners.push(step, found, floor, None);
             let reason = "a missed extreme, a h²/8, over the slowest rate at a corner, and h² of the interpolation; right: 1 % of a cycle";
             let tolerance = (AMPLITUDE / 8.0 + 1.0) * step * step + 16.0 * floor;
             let judgement =
                 Judgement { basis: Basis::Exact, expected: 0.0, found, tolerance, reason: reason.to_owned() };
             rows.push(at.row("corner_time", judgement).against(0.0, RIGHT * TAU).with_floor(floor));
         }
-        finish_ladder(&mut rows, &subject, "loop_area", &areas, 2.0, SCATTER_TOLERANCE);
-        finish_ladder(&mut rows, &subject, "corner_time", &corners, 2.0, SCATTER_TOLERANCE);
+        finish_ladder(&mut rows, &subject, "loop_area", &areas, SCATTER_TOLERANCE);
+        finish_ladder(&mut rows, &subject, "corner_time", &corners, SCATTER_TOLERANCE);
         Ok(rows)
     }
 }

@@ -4,7 +4,7 @@ use super::near_motion::{self, Quantities};
 use super::rig_motion::{beside_the_cycle, orbit, rig};
 use super::settled::Settled;
 use crate::conformance::exchange::Setup;
-use crate::conformance::experiment::{Experiment, RIGHT, finish_ladder, hook_cases};
+use crate::conformance::experiment::{Experiment, RIGHT, bounded_row, finish_ladder, hook_cases};
 use crate::conformance::ladder::rounding_floor;
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::{Basis, ConformanceError, Judgement, Ladder, ORDER_TOLERANCE, Row, Subject};
@@ -85,6 +85,10 @@ fn settled(subject: &Subject, case: &Case, bench: &dyn Bench) -> Result<Vec<Row>
     for &steps in &case.steps {
         let (at, step) = (subject.at(steps, orbit.period), orbit.period / f64::from(steps));
         let measured = experiment.measure(bench, case.configuration, steps)?;
+        rows.push(bounded_row(&at, &measured.trajectory, &measured.predicted));
+        if measured.diverged() {
+            continue;
+        }
         let from = experiment.duration() - f64::from(WINDOW) * orbit.period;
         let found = Settled::of(ID, &measured.trajectory, from)?;
         let predicted = Settled::of(ID, &measured.predicted, from)?;
@@ -108,11 +112,12 @@ fn settled(subject: &Subject, case: &Case, bench: &dyn Bench) -> Result<Vec<Row>
         );
         let why = "maxima that differ by less than 1 %; more is a torus in place of the limit cycle";
         row("spread_of_maxima", predicted.spread(), found.spread(), 0.0, RIGHT * amplitude, why);
-        amplitudes.points.push((step, (found.mean - amplitude).abs(), floor));
-        frequencies.points.push((step, (found.angular_frequency - frequency).abs(), floor));
+        let error = |found: f64, exact: f64| (found - exact).abs();
+        amplitudes.push(step, error(found.mean, amplitude), floor, Some(error(predicted.mean, amplitude)));
+        let (found, predicted) = (found.angular_frequency, predicted.angular_frequency);
+        frequencies.push(step, error(found, frequency), floor, Some(error(predicted, frequency)));
     }
-    let order = case.configuration.expected_order();
-    finish_ladder(&mut rows, subject, "amplitude", &amplitudes, order, ORDER_TOLERANCE);
-    finish_ladder(&mut rows, subject, "angular_frequency", &frequencies, order, ORDER_TOLERANCE);
+    finish_ladder(&mut rows, subject, "amplitude", &amplitudes, ORDER_TOLERANCE);
+    finish_ladder(&mut rows, subject, "angular_frequency", &frequencies, ORDER_TOLERANCE);
     Ok(rows)
 }

@@ -8,7 +8,7 @@
 use crate::conformance::exchange::Setup;
 use crate::conformance::experiment::{Experiment, SAMPLES_PER_PERIOD, finish_ladder, hook_cases};
 use crate::conformance::fit::fit_modes;
-use crate::conformance::modal_rows::{ModeAt, finish_modes, state_order};
+use crate::conformance::modal_rows::{ModeAt, finish_modes};
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::theory::DifferenceEquation;
 use crate::conformance::{ConformanceError, Ladder, ORDER_TOLERANCE, Row, Subject};
@@ -112,7 +112,7 @@ pub(super) fn free_decay(
     let growth = (-ratio * experiment.duration()).exp().max(1.0);
     let truth = LinearMode { angular_frequency: (1.0 - ratio * ratio).max(0.0).sqrt(), damping: 2.0 * ratio };
     let oscillates = ratio < 1.0;
-    let (mut states, mut frequencies, mut dampings) = (Ladder::new(growth), Ladder::new(1.0), Ladder::new(1.0));
+    let (mut states, mut ladders) = (Ladder::new(growth), [Ladder::new(1.0), Ladder::new(1.0)]);
     let mut rows = Vec::new();
     for &steps in &case.steps {
         let at = subject.at(steps, TAU);
@@ -120,7 +120,7 @@ pub(super) fn free_decay(
         let measured = experiment.measure(bench, configuration, steps)?;
         let exact: Vec<State> = measured.times().iter().map(|&t| state(ratio, t)).collect();
         let error = measured.state_error(&exact);
-        states.points.push((step, error.found, measured.floor));
+        states.push(step, error.found, measured.floor, Some(error.expected));
         rows.push(error.row(&at, &measured, growth));
         if !oscillates {
             continue;
@@ -139,19 +139,11 @@ pub(super) fn free_decay(
         if ratio == 0.0 {
             rows.push(mode.formula_row(step));
         }
-        frequencies.points.push((step, (found[0].angular_frequency - truth.angular_frequency).abs(), rounding));
-        dampings.points.push((step, (found[0].damping - truth.damping).abs(), rounding));
+        mode.climb(&mut ladders, step);
     }
-    finish_ladder(
-        &mut rows,
-        subject,
-        "state_error",
-        &states,
-        state_order(configuration, ratio != 0.0),
-        ORDER_TOLERANCE,
-    );
+    finish_ladder(&mut rows, subject, "state_error", &states, ORDER_TOLERANCE);
     if oscillates {
-        finish_modes(&mut rows, subject, "", [&frequencies, &dampings], ratio != 0.0);
+        finish_modes(&mut rows, subject, "", [&ladders[0], &ladders[1]], ratio != 0.0);
     }
     Ok(rows)
 }

@@ -26,7 +26,6 @@ pub(super) fn rows(
     quantities: Quantities,
 ) -> Result<Vec<Row>, ConformanceError> {
     let (mut rows, mut states, mut others) = (Vec::new(), Ladder::new(1.0), Ladder::new(1.0));
-    let order = case.configuration.expected_order();
     for &steps in &case.steps {
         let (at, step) = (subject.at(steps, experiment.period), experiment.period / f64::from(steps));
         let measured = experiment.measure(bench, case.configuration, steps)?;
@@ -38,7 +37,7 @@ pub(super) fn rows(
         let error = measured.state_error(&exact);
         let scale = exact.iter().flat_map(State::components).fold(0.0, |scale: f64, y| scale.max(y.abs()));
         states.scale = scale;
-        states.points.push((step, error.found, measured.floor));
+        states.push(step, error.found, measured.floor, Some(error.expected));
         match quantities {
             Quantities::StateAndSwitching => {
                 rows.push(error.row(&at, &measured, scale));
@@ -48,24 +47,24 @@ pub(super) fn rows(
                     rows.push(at.failed("switching_time", "the engine's motion has other switches than the exact one"));
                     continue;
                 };
-                others.points.push((step, found, measured.floor));
+                others.push(step, found, measured.floor, None);
                 rows.push(switching_row(&at, found, largest + error.tolerance, experiment.period));
             }
             Quantities::Energy => {
                 let found = measured.trajectory.energy_residual();
                 others.scale = scale * scale;
                 let floor = measured.floor * scale;
-                others.points.push((step, found, floor));
+                others.push(step, found, floor, None);
                 rows.push(energy_row(&at, found, experiment, step, scale, floor).with_trajectory(&measured.hash));
             }
         }
     }
     match quantities {
         Quantities::StateAndSwitching => {
-            finish_ladder(&mut rows, subject, "state_error", &states, order, ORDER_TOLERANCE);
-            finish_ladder(&mut rows, subject, "switching_time", &others, order, ORDER_TOLERANCE);
+            finish_ladder(&mut rows, subject, "state_error", &states, ORDER_TOLERANCE);
+            finish_ladder(&mut rows, subject, "switching_time", &others, ORDER_TOLERANCE);
         }
-        Quantities::Energy => finish_ladder(&mut rows, subject, "energy_residual", &others, order, SCATTER_TOLERANCE),
+        Quantities::Energy => finish_ladder(&mut rows, subject, "energy_residual", &others, SCATTER_TOLERANCE),
     }
     Ok(rows)
 }

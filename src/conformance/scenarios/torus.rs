@@ -2,7 +2,7 @@
 
 use super::rig_motion::{orbit, rig};
 use super::settled::Settled;
-use crate::conformance::experiment::{Experiment, RIGHT, hook_cases};
+use crate::conformance::experiment::{Experiment, RIGHT, bounded_row, hook_cases};
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::{Basis, ConformanceError, Judgement, Row};
 use crate::dynamics::{Flow, Sampling};
@@ -63,6 +63,10 @@ impl Scenario for Torus {
         for &steps in &case.steps {
             let at = subject(self, case).at(steps, orbit.period);
             let measured = experiment.measure(bench, case.configuration, steps)?;
+            rows.push(bounded_row(&at, &measured.trajectory, &measured.predicted));
+            if measured.diverged() {
+                continue;
+            }
             let found = Settled::of(ID, &measured.trajectory, from)?;
             let predicted = Settled::of(ID, &measured.predicted, from)?;
             let numbers = [

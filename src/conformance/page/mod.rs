@@ -1,0 +1,10 @@
+//! The report for readers: the same tables and texts as Markdown and as a page with charts.
+
+mod answer;
+mod charts;
+mod html;
+mod markdown;
+mod tables;
+
+pub use html::html;
+pub use markdown::markdown;
