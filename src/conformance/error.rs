@@ -30,7 +30,8 @@ pub enum ConformanceError {
     /// A motion that does not show what was to be measured on it.
     #[error("conformance: {scenario}: found {found} {what}, expected at least {expected}: the motion left its kind")]
     TooFew { scenario: &'static str, what: &'static str, found: usize, expected: usize },
-    #[error("conformance: {scenario}: the motion exceeded |x| = {bound} at t = {time}: it cannot be measured")]
+    /// A motion that ended early.
+    #[error("conformance: {scenario}: the motion exceeded {bound} at t = {time}, expected it to stay bounded")]
     Diverged { scenario: &'static str, time: f64, bound: f64 },
     /// A report or trajectory file that is not what it should be.
     #[error("conformance: {path}: {reason}")]

@@ -5,6 +5,7 @@ mod coupled_oscillators;
 mod energy_ledger;
 mod free_flight;
 mod friction_decay;
+mod friction_theory;
 mod hysteresis;
 mod joint_drift;
 mod limit_cycle;

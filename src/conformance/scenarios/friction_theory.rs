@@ -1,0 +1,150 @@
+//! What theory predicts of a Jenkins element made by Rapier's own means: kt = 1, R = 1, slider mass ms, substep `d = h/n`, and for contacts
+//! the compliance `q = kt d^2/ms`: Rapier moves a
+//! touching body with the friction impulse of the substep before, so that each increase dF of the load moves the slider by dF d^2/ms.
+//!
+//! ```text
+//! loop area        4 (a - (1 + q)),  and up to 4 v_c sqrt(ms) of ringing,   v_c the speed at the corner
+//! largest force    1 + v_c sqrt(ms)
+//! held by F        slider moves F q/(1 + q);    joint friction creeps by F/(ms d wJ^2), wJ = 2 pi 1e6;    limited motor by F/1e6
+//! stick            angular frequency sqrt(1 + 1/(1 + q));    ride  1/sqrt(1 + ms/(1 - ms))
+//! ```
+
+use crate::conformance::linear_mechanisms::{Oscillator, damping_error};
+use crate::conformance::native_friction::{self, AMPLITUDE, HELD_FORCE, HOLDING_TIME, Making};
+use crate::conformance::{Basis, Configuration, Judgement, RIGHT, Row, Subject};
+use crate::engine::mechanism::{ElementSpring, FrictionMechanism, LinearMechanism};
+use std::f64::consts::TAU;
+
+/// Softness of a multibody joint, which its friction shares: Rapier's default natural frequency of 1e6.
+const JOINT_FREQUENCY: f64 = TAU * 1e6;
+/// Force per speed with which a limited motor holds.
+const HOLDING_DAMPING: f64 = 1e6;
+
+/// What is expected of an element at a step, see the head of this file.
+pub(super) struct Theory {
+    making: Making,
+    configuration: Configuration,
+    pub step: f64,
+    /// Zero without a slider body.
+    slider_mass: f64,
+    /// `q`, zero but for contacts.
+    compliance: f64,
+}
+
+impl Theory {
+    pub fn of(making: Making, configuration: Configuration, step: f64) -> Self {
+        let slider_mass = if making.mechanism.has_slider_body() { making.slider_mass } else { 0.0 };
+        let substep = step / configuration.substeps as f64;
+        let compliance = match making.mechanism {
+            FrictionMechanism::CoulombContact | FrictionMechanism::SimplifiedContact => substep * substep / slider_mass,
+            _ => 0.0,
+        };
+        Self { making, configuration, step, slider_mass, compliance }
+    }
+
+    fn substep(&self) -> f64 {
+        self.step / self.configuration.substeps as f64
+    }
+
+    /// Position and time of the corner after the lower reversal.
+    fn corner(&self) -> (f64, f64) {
+        let position = (2.0 * (1.0 + self.compliance) - AMPLITUDE).min(AMPLITUDE);
+        (position, (position / AMPLITUDE).asin())
+    }
+
+    /// By how much a slider body exceeds the slip force.
+    fn overshoot(&self) -> f64 {
+        let (position, _) = self.corner();
+        (AMPLITUDE * AMPLITUDE - position * position).sqrt() * self.slider_mass.sqrt()
+    }
+
+    pub fn hysteresis_rows(&self, at: &Subject, found: &native_friction::Hysteresis) -> Vec<Row> {
+        let exact = native_friction::EXACT_LOOP_AREA;
+        let area = 4.0 * (AMPLITUDE - 1.0 - self.compliance);
+        let ringing = 4.0 * self.overshoot();
+        let coarse = 4.0 * self.step * self.step;
+        // The corner of an element without mass, and the time in which a slider of its own frequency 1/sqrt(ms) gets going.
+        let inertia = 2.0 * self.slider_mass.sqrt() + 2.0 * self.step;
+        let late =
+            self.corner().1 - (2.0 - AMPLITUDE).atan2((AMPLITUDE * AMPLITUDE - (2.0 - AMPLITUDE).powi(2)).sqrt());
+        // The slider is damped or driven by its spring's mechanism, by the part ws d within a period of its ringing.
+        let within = 0.1 + self.substep() / self.slider_mass.sqrt().max(self.substep());
+        let overshoot = self.overshoot();
+        let mut rows = vec![
+            judged(at, "loop_area", area, found.loop_area, ringing + coarse).against(exact, RIGHT * exact),
+            judged(at, "largest_force", 1.0 + overshoot, found.largest_force, within * overshoot + coarse)
+                .against(1.0, RIGHT),
+            judged(at, "mean_slip_force", 1.0, found.slip_force[0], 0.5 * overshoot + coarse).against(1.0, RIGHT),
+        ];
+        for (quantity, expected, delay) in
+            [("slip_start_delay", late, found.slip_start_delay), ("slip_stop_delay", 0.0, found.slip_stop_delay)]
+        {
+            rows.push(match delay {
+                Some(delay) => judged(at, quantity, expected, delay, inertia).against(0.0, RIGHT * TAU / 4.0),
+                None => at.failed(quantity, "the slider never slips"),
+            });
+        }
+        rows
+    }
+
+    pub fn hold_rows(&self, at: &Subject, found: native_friction::Hold) -> Vec<Row> {
+        let creep = match self.making.mechanism {
+            FrictionMechanism::LimitedMotor => HELD_FORCE / HOLDING_DAMPING,
+            FrictionMechanism::JointFriction => {
+                HELD_FORCE / (self.slider_mass * self.substep() * JOINT_FREQUENCY.powi(2))
+            }
+            _ => 0.0,
+        };
+        let settled = HELD_FORCE * self.compliance / (1.0 + self.compliance) + 0.5 * HOLDING_TIME * creep;
+        // Positions are stored with the rest position of the slider, at -4: spacing 4 eps. Below 1e-8 creep takes 1e6 time units
+        // for 1 % of the slip displacement.
+        let resolution = 16.0 * self.configuration.unit_roundoff();
+        vec![
+            judged(at, "held_displacement", settled, found.settled, 0.02 * settled + resolution + 1e-8)
+                .against(0.0, RIGHT),
+            judged(at, "creep_rate", creep, found.creep_rate, 0.02 * creep + resolution + 1e-8)
+                .against(0.0, RIGHT / 1e3),
+        ]
+    }
+
+    pub fn stick_frequency(&self) -> f64 {
+        (1.0 + 1.0 / (1.0 + self.compliance)).sqrt()
+    }
+
+    pub fn stick_frequency_tolerance(&self) -> f64 {
+        // The step itself shifts frequencies by (w h)^2/3 at most, with w^2 = 2; the slider's inertia by its compliance squared.
+        0.02 * self.compliance / 4.0 + self.compliance * self.compliance + 2.0 * self.step * self.step + 1e-6
+    }
+
+    /// Half of the stiffness is the carriage's hooked spring, half is the element's.
+    pub fn stick_damping(&self) -> f64 {
+        let unit = Oscillator::unit();
+        let of = |mechanism| damping_error(mechanism, unit, self.step, self.configuration.substeps);
+        let native = match (self.making.mechanism, self.making.spring) {
+            (FrictionMechanism::SaturatingMotor, _) => true,
+            (FrictionMechanism::Hook, _) => false,
+            (_, spring) => spring == ElementSpring::SpringJoint,
+        };
+        of(LinearMechanism::Hook) + if native { of(LinearMechanism::SpringJoint) } else { of(LinearMechanism::Hook) }
+    }
+
+    pub fn stick_damping_tolerance(&self) -> f64 {
+        // A spring joint sees the slider's mass behind it while it is solved: (ws d)^2/(1 + (ws d)^2) of its damping.
+        let lag = self.substep().powi(2) / self.slider_mass.max(self.substep());
+        0.02 * self.step + (self.compliance + lag) * self.step + 4e-6
+    }
+
+    /// The slider rides on its spring: its effective mass is ms/(1 - ms).
+    pub fn ride_frequency(&self) -> (f64, f64) {
+        let expected = 1.0 / (1.0 + self.slider_mass / (1.0 - self.slider_mass)).sqrt();
+        // 3e-5 for the rest of stick; without a slider body a spring that saturates keeps its stiffness near x = 0, 2 R/(pi a).
+        let stick = if self.making.mechanism == FrictionMechanism::SaturatingMotor { 1e-3 } else { 3e-5 };
+        (expected, 0.02 * (1.0 - expected) + stick + self.step * self.step)
+    }
+}
+
+/// A row against a formula.
+pub(super) fn judged(at: &Subject, quantity: &str, expected: f64, found: f64, tolerance: f64) -> Row {
+    let reason = "2 % of the formula, and the next orders in step and slider mass; right: within 1 %".to_owned();
+    at.row(quantity, Judgement { basis: Basis::Formula, expected, found, tolerance, reason })
+}
