@@ -104,7 +104,7 @@ impl DifferenceEquation {
         }
         for (((element, force), new), old) in self.chain.jenkins().iter().zip(f.iter_mut()).zip(elongations(x)).zip(old)
         {
-            *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
+            *force = (*force + element.normalised_stiffness() * (new - old)).clamp(-1.0, 1.0);
         }
         self.acceleration(x, w, f, a)
     }
@@ -126,10 +126,10 @@ impl DifferenceEquation {
         for (element, force) in self.chain.jenkins().iter().zip(f) {
             element.attachment.scatter(-element.slip_force * force, &mut a);
         }
-        for i in 0..n {
-            a[i] /= self.chain.mass()[i];
+        for (i, a) in a.iter_mut().enumerate() {
+            *a /= self.chain.mass()[i];
             for j in 0..n {
-                a[i] -= self.stiffness[(i, j)] * x[j] + self.damping[(i, j)] * u[j];
+                *a -= self.stiffness[(i, j)] * x[j] + self.damping[(i, j)] * u[j];
             }
         }
         a
