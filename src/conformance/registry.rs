@@ -19,6 +19,7 @@ pub fn registry() -> Vec<Box<dyn Scenario>> {
         Box::new(LimitCycle),
         Box::new(SecondaryHopf),
         Box::new(Torus),
+        Box::new(SecondaryHopf),
         Box::new(Chaos),
         Box::new(EnergyLedger),
         Box::new(JointDrift),
