@@ -34,11 +34,12 @@ pub struct Advice {
     pub all: Fewest,
 }
 
-/// Advice for every configuration that has rows about the limit cycle, in their order.
+/// Advice for every configuration that has numbers about the limit cycle, in their order.
 #[must_use]
 pub fn advice(rows: &[Row]) -> Vec<Advice> {
     let mut configurations: Vec<Configuration> = Vec::new();
-    for row in rows.iter().filter(|row| row.scenario == "limit_cycle" || row.quantity == HOPF_QUANTITY) {
+    let about = |row: &&Row| row.scenario == "limit_cycle" || row.quantity == HOPF_QUANTITY;
+    for row in rows.iter().filter(about).filter(|row| row.found.is_some()) {
         if !configurations.contains(&row.configuration) {
             configurations.push(row.configuration);
         }

@@ -74,7 +74,7 @@ pub struct Cost {
 impl Report {
     #[must_use]
     pub fn new(scenarios: &[Box<dyn Scenario>], depth: Depth, rows: Vec<Row>, timing: Option<Timing>) -> Self {
-        let note = |scenario: &Box<dyn Scenario>| ScenarioNote {
+        let note = |scenario: &dyn Scenario| ScenarioNote {
             id: scenario.id().to_owned(),
             title: scenario.title().to_owned(),
             description: scenario.description().to_owned(),
@@ -88,7 +88,7 @@ impl Report {
             parameters: Parameters { depth },
             engines: [Precision::Single, Precision::Double].map(engine).to_vec(),
             machine: Machine::here(),
-            scenarios: scenarios.iter().map(note).collect(),
+            scenarios: scenarios.iter().map(|scenario| note(scenario.as_ref())).collect(),
             tally: tally(&rows),
             advice: advice(&rows),
             rows_sha256: sha256_hex(text.as_bytes()),

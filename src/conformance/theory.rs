@@ -70,10 +70,10 @@ impl DifferenceEquation {
     #[must_use]
     pub fn motion(&self, initial: &State, steps: u32, stride: u32) -> Trajectory {
         let State { positions: mut x, velocities, slider_forces: mut f } = initial.clone();
-        let mut a = self.acceleration_at(&x, &velocities, &f);
+        let mut a = self.acceleration(&x, &velocities, &f);
         let mut w: Vec<f64> = velocities.iter().zip(&a).map(|(v, a)| v - self.stagger * a).collect();
         if self.lagging {
-            a = self.acceleration_at(&x, &w, &f);
+            a = self.acceleration(&x, &w, &f);
         }
         let mut samples = vec![bare_sample(0.0, initial.clone())];
         for i in 1..=steps {
@@ -104,15 +104,15 @@ impl DifferenceEquation {
         }
         for (((element, force), new), old) in self.chain.jenkins().iter().zip(f.iter_mut()).zip(elongations(x)).zip(old)
         {
-            *force = (*force + element.normalised_stiffness() * (new - old)).min(1.0).max(-1.0);
+            *force = (*force + element.normalised_stiffness() * (new - old)).clamp(-1.0, 1.0);
         }
-        self.acceleration(x, w, f, a)
+        self.acceleration_after(x, w, f, a)
     }
 
     /// Where the step before was made under the acceleration `past`.
-    pub(super) fn acceleration(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
+    pub(super) fn acceleration_after(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
         let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
-        self.acceleration_at(x, &told, f)
+        self.acceleration(x, &told, f)
     }
 
     /// `v = w + s a`
@@ -120,16 +120,16 @@ impl DifferenceEquation {
         w.iter().zip(a).map(|(w, a)| w + self.stagger * a).collect()
     }
 
-    fn acceleration_at(&self, x: &[f64], u: &[f64], f: &[f64]) -> Vec<f64> {
+    fn acceleration(&self, x: &[f64], u: &[f64], f: &[f64]) -> Vec<f64> {
         let n = x.len();
         let mut a = vec![0.0; n];
         for (element, force) in self.chain.jenkins().iter().zip(f) {
             element.attachment.scatter(-element.slip_force * force, &mut a);
         }
-        for i in 0..n {
-            a[i] /= self.chain.mass()[i];
+        for (i, a) in a.iter_mut().enumerate() {
+            *a /= self.chain.mass()[i];
             for j in 0..n {
-                a[i] -= self.stiffness[(i, j)] * x[j] + self.damping[(i, j)] * u[j];
+                *a -= self.stiffness[(i, j)] * x[j] + self.damping[(i, j)] * u[j];
             }
         }
         a

@@ -72,7 +72,7 @@ impl DiscreteMap for Equation {
     /// As the engine starts, with the stagger of the scheme: a guess for Newton's method, no more.
     fn start(&self, initial: &State) -> Result<DiscreteState, HopfError> {
         let State { positions: x, velocities: v, slider_forces: f } = initial;
-        let a = self.equation.acceleration(x, v, f, &vec![0.0; x.len()]);
+        let a = self.equation.acceleration_after(x, v, f, &vec![0.0; x.len()]);
         let back: Vec<f64> = a.iter().map(|a| -a).collect();
         Ok(DiscreteState {
             positions: x.clone(),
@@ -86,7 +86,7 @@ impl DiscreteMap for Equation {
         let DiscreteState { positions: mut x, engine_velocities: mut w, slider_forces: mut f, past_accelerations } =
             from.clone();
         let mut past = if self.remembers { past_accelerations } else { vec![0.0; x.len()] };
-        let mut a = self.equation.acceleration(&x, &w, &f, &past);
+        let mut a = self.equation.acceleration_after(&x, &w, &f, &past);
         let mut first_velocities = [self.equation.recorded(&w, &a), Vec::new()];
         let mut switches = Vec::new();
         let mut limits = at_limit(&f);

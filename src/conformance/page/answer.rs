@@ -7,9 +7,13 @@ pub(super) fn answer(report: &Report) -> Vec<String> {
     let tally = &report.tally;
     let mut said = vec![use_this(report)];
     said.extend(defaults(report));
-    let broken = if tally.failed == 0 { "None" } else { "Look at these first: some" };
+    let broken = if tally.failed == 0 {
+        ""
+    } else {
+        "Those that do not are listed first: look at them before you believe the rest. "
+    };
     said.push(format!(
-        "{} numbers behave as the theory of their configuration predicts, {} do not, {} were not run. {broken} of them came out other than predicted. \
+        "{} numbers behave as the theory of their configuration predicts, {} do not, {} were not run. {broken}\
          Of the numbers that have a counterpart in the equations of motion, {} are right to 1 % and {} are wrong: a row can be exactly as \
          predicted and physically wrong.",
         tally.passed, tally.failed, tally.not_run, tally.right, tally.wrong

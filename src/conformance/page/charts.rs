@@ -5,11 +5,20 @@ use crate::conformance::{Configuration, Report, Row};
 use crate::engine::{Joints, Precision, Scheme};
 use crate::report::{Figure, Mark, Panel, Series, Style, Tint};
 
+/// Floors lower than this part of the smallest error are not drawn.
+const NEAR_THE_FLOOR: f64 = 0.01;
+
+/// `error of damping`; `state error` says so itself.
+pub(super) fn axis_label(quantity: &str) -> String {
+    let words = quantity.replace('_', " ");
+    if words.ends_with("error") || words.ends_with("residual") { words } else { format!("error of {words}") }
+}
+
 /// Errors of one quantity of a scenario over the step; none without two points to draw.
 pub(super) fn errors(report: &Report, scenario: &str, variant: &str, quantity: &str) -> Option<Figure> {
     let wanted = |row: &&Row| row.scenario == scenario && row.variant == variant && row.quantity == quantity;
     let rows: Vec<&Row> = report.rows.iter().filter(wanted).filter(|row| is_notable(row.configuration)).collect();
-    let mut panel = Panel::new("step h", &format!("error of {}", quantity.replace('_', " "))).log_x().log_y();
+    let mut panel = Panel::new("step h", &axis_label(quantity)).log_x().log_y();
     let mut all = Vec::new();
     for configuration in configurations(&rows) {
         let points: Vec<(f64, f64)> = points(&rows, configuration, |row| row.deviation);
@@ -24,7 +33,9 @@ pub(super) fn errors(report: &Report, scenario: &str, variant: &str, quantity: &
     for (precision, tint) in [(Precision::Single, Tint::Grey), (Precision::Double, Tint::LightGrey)] {
         let recipe = Configuration { precision, ..Configuration::RECIPE };
         let floor = points(&rows, recipe, |row| row.floor);
-        if floor.len() > 1 {
+        // A floor far below all errors would only flatten them.
+        let lowest = all.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
+        if floor.len() > 1 && floor.iter().any(|point| point.1 > NEAR_THE_FLOOR * lowest) {
             panel = panel.series(Series::new(
                 &format!("floor of rounding, {}", precision.word()),
                 floor,

@@ -89,15 +89,13 @@ fn part(report: &Report, note: &ScenarioNote, variant: &str) -> Result<Markup, C
     let mut pictures = Vec::new();
     for quantity in quantities {
         if let Some(figure) = charts::errors(report, &note.id, variant, quantity) {
-            pictures.push(picture(
-                &figure,
-                &format!("{}: error of {} over the step", note.title, quantity.replace('_', " ")),
-            )?);
+            let what = charts::axis_label(quantity);
+            pictures.push((what.clone(), picture(&figure, &format!("{}: {what} over the step", note.title))?));
         }
     }
     Ok(html! {
         @if !variant.is_empty() { h3 { (variant) } }
-        @for picture in pictures { (picture) }
+        @for (what, picture) in pictures { p.caption { (note.title) ": " (what) " over the step, both logarithmic" } (picture) }
         @if !orders.is_empty() { details { summary { (format!("Orders of convergence: {} rows", orders.len())) } (table(&tables::orders(&orders))) } }
         @if !notable.is_empty() {
             details open[orders.is_empty()] {

@@ -27,7 +27,7 @@ pub(super) fn number(value: Option<f64>) -> Entry {
     let size = value.abs();
     let text = match size {
         0.0 => "0".to_owned(),
-        _ if size >= 1e5 || size < 1e-3 => format!("{value:.2e}"),
+        _ if !(1e-3..1e5).contains(&size) => format!("{value:.2e}"),
         _ => format!("{value:.6}"),
     };
     Entry { text, key: Some(value) }

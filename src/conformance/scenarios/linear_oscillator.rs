@@ -97,7 +97,7 @@ pub(super) fn experiment(scenario: &'static str, ratio: f64) -> Result<Experimen
 /// Set-up and reference for other engines.
 pub(super) fn setup(scenario: &'static str, name: &str, ratio: f64) -> Result<Setup, ConformanceError> {
     let experiment = experiment(scenario, ratio)?;
-    Ok(Setup::of(&experiment, name, move |t| Ok(state(ratio, t)))?)
+    Setup::of(&experiment, name, move |t| Ok(state(ratio, t)))
 }
 
 /// Rows about a decay or growth over the ladder.
