@@ -21,6 +21,7 @@ mod render;
 mod run;
 mod simulate;
 mod story;
+mod sweep;
 mod trajectory_table;
 
 use clap::{Parser, Subcommand};

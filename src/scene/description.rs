@@ -2,6 +2,7 @@
 //! time of the file is in SI too; where it is given non-dimensionally (`[rig]`), all are non-dimensional.
 
 use super::direction::Direction;
+use super::ramp::Ramp;
 use crate::model::{DimensionalRig, PrescribedMotion, RigParameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,9 @@ pub struct Scene {
     /// The rig in SI units. Exclusive with `rig`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rig_si: Option<DimensionalRig>,
+    /// Sweeps the self-excitation; only with a non-dimensional rig and a free motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramp: Option<Ramp>,
     #[serde(default)]
     pub initial: Initial,
     /// Moves mass 1 as `amplitude sin(angular_frequency t)` and holds mass 2. Of `initial` only the slider force of a state counts then; it is 0 without one.

@@ -5,6 +5,7 @@ mod description;
 mod direction;
 mod error;
 mod load;
+mod ramp;
 mod story;
 
 pub use case::Case;
@@ -12,6 +13,7 @@ pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precisio
 pub use direction::{CameraMove, Caption, Direction, Easing, Key, Panel, SlowMotion, View};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;
+pub use ramp::{Excitation, Ramp};
 pub use story::Story;
 
 impl Scene {
