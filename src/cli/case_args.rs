@@ -1,6 +1,6 @@
 //! Options that name or change a scene.
 
-use crate::scene::{Case, Initial, Joints, Precision, Scene, Scheme};
+use crate::scene::{Case, Initial, Joints, Precision, Scene, Scheme, Theme};
 use anyhow::{Context, ensure};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -114,6 +114,9 @@ pub struct FilmArgs {
     /// Time of the motion in one second of film, in the units of the scene.
     #[arg(long, allow_hyphen_values = true)]
     pub speed: Option<f64>,
+    /// dark or light.
+    #[arg(long, value_parser = parse_serde::<Theme>)]
+    pub theme: Option<Theme>,
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
@@ -131,6 +134,7 @@ impl FilmArgs {
         [film.width, film.height] = self.size.unwrap_or([film.width, film.height]);
         film.fps = self.fps.unwrap_or(film.fps);
         film.speed = self.speed.unwrap_or(film.speed);
+        film.theme = self.theme.unwrap_or(film.theme);
     }
 }
 

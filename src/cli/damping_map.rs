@@ -22,7 +22,7 @@ pub fn of(case: &Case, progress: &Progress) -> anyhow::Result<Option<DampingMap>
     if case.prescribed.is_some() || !case.panels().contains(&Panel::Map) {
         return Ok(None);
     }
-    match compute(case.parameters) {
+    match compute(case.parameters, case.excitation().strongest()) {
         Ok(map) => Ok(Some(map)),
         Err(error) => {
             progress.say(&format!("the panel of the amplitude-damping diagram stays empty: {error:#}"));
@@ -31,8 +31,8 @@ pub fn of(case: &Case, progress: &Progress) -> anyhow::Result<Option<DampingMap>
     }
 }
 
-fn compute(p: RigParameters) -> anyhow::Result<DampingMap> {
-    let [weakest, strongest] = [RANGE[0], RANGE[1].min(1.15 * p.xi1)];
+fn compute(p: RigParameters, excitation: f64) -> anyhow::Result<DampingMap> {
+    let [weakest, strongest] = [RANGE[0], RANGE[1].min(1.15 * excitation)];
     let part = |n: usize| n as f64 / (MOTIONS - 1) as f64;
     let values: Vec<f64> = (0..MOTIONS).map(|n| weakest + (strongest - weakest) * part(n)).collect();
     let plan = DiagramPlan { window: WINDOW, ..DiagramPlan::default() };

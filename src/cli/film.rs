@@ -39,6 +39,13 @@ pub struct DrawArgs {
     /// Draw the frames from A up to, not including, B only, and no film.
     #[arg(long, value_name = "A:B", value_parser = parse_frames)]
     pub frames: Option<Range<u64>>,
+    /// Draw the Kth of N equal parts of the frames only, and no film; for many machines that share a directory, or whose directories are
+    /// put together.
+    #[arg(long, value_name = "K/N", value_parser = parse_shard, conflicts_with = "frames")]
+    pub shard: Option<[u64; 2]>,
+    /// Draw frames this many times as wide and high and make them smaller: smoother edges for as much more time, squared.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub supersample: u32,
 }
 
 /// `A:B`
@@ -49,10 +56,27 @@ pub fn parse_frames(text: &str) -> Result<Range<u64>, String> {
     }
 }
 
+/// `K/N`
+fn parse_shard(text: &str) -> Result<[u64; 2], String> {
+    match text.split_once('/').map(|(k, n)| (k.parse(), n.parse())) {
+        Some((Ok(k), Ok(n))) if 1 <= k && k <= n => Ok([k, n]),
+        _ => Err("give two whole numbers K/N, K from 1 to N".to_owned()),
+    }
+}
+
 impl DrawArgs {
+    /// The frames to draw of a film of `count`; `None` for all.
+    fn selected(&self, count: u64) -> Option<Range<u64>> {
+        let part = |[k, n]: [u64; 2]| (k - 1) * count / n..k * count / n;
+        self.frames.clone().or(self.shard.map(part))
+    }
+
     /// Refuses frames beyond a film of `count`. Asked once before anything is written, and again of the motion, which may have ended
     /// early.
     pub fn check(&self, count: u64) -> anyhow::Result<()> {
+        if let Some([k, n]) = self.shard {
+            ensure!(n <= count, "--shard {k}/{n} is too small a part: the film has {count} frames");
+        }
         let Some(Range { start, end }) = self.frames else { return Ok(()) };
         ensure!(end <= count, "--frames {start}:{end} is beyond the film: it has {count} frames");
         Ok(())
@@ -72,13 +96,15 @@ impl RendererName {
     }
 }
 
-/// Frames over which one scene of a story fades out and the next one in.
-const FADE: u64 = 9;
+/// Time in which one scene of a story fades out, and the next one in: seconds of film.
+const FADE: f64 = 0.3;
 
 /// The stages of a film, one after the other.
 struct Source {
     stages: Vec<Stage>,
     size: [u32; 2],
+    /// Frames of a fade.
+    fade: u64,
 }
 
 impl Source {
@@ -95,9 +121,9 @@ impl Source {
     /// How dark a frame is beside a cut, 0 to 1. A film of one stage has no cut.
     fn darkness(&self, stage: &Stage, number: u64, index: u64) -> f32 {
         let to_end = stage.frame_count() - 1 - number;
-        let before = if index == number { FADE } else { number };
-        let after = if index + to_end + 1 == self.count() { FADE } else { to_end };
-        1.0 - before.min(after).min(FADE) as f32 / FADE as f32
+        let before = if index == number { self.fade } else { number };
+        let after = if index + to_end + 1 == self.count() { self.fade } else { to_end };
+        1.0 - before.min(after).min(self.fade) as f32 / self.fade as f32
     }
 }
 
@@ -179,10 +205,13 @@ fn carriages(poses: &[BodyPose]) -> Option<[Body; 2]> {
     Some([carriage(0)?, carriage(1)?])
 }
 
-/// A case with its motion, ready to be drawn.
-pub fn stage(case: &Case, shown: Shown, progress: &Progress) -> anyhow::Result<Stage> {
+/// A case with its motion, ready to be drawn `supersample` times as large as its film.
+pub fn stage(case: &Case, shown: Shown, supersample: u32, progress: &Progress) -> anyhow::Result<Stage> {
     let map = super::damping_map::of(case, progress)?;
-    Ok(Stage::new(case.clone(), shown.motion, Beside { exact: shown.reference, map }))
+    let mut case = case.clone();
+    case.film.width *= supersample;
+    case.film.height *= supersample;
+    Ok(Stage::new(case, shown.motion, Beside { exact: shown.reference, map }))
 }
 
 /// Opens what draws, and says which it is.
@@ -201,15 +230,18 @@ pub fn make(
     output: &OutputDir,
     progress: &mut Progress,
 ) -> anyhow::Result<Made> {
-    let source = Source { stages, size: [film.width, film.height] };
+    let fade = (FADE * f64::from(film.fps)).ceil() as u64;
+    let source = Source { stages, size: [film.width, film.height].map(|side| side * args.supersample), fade };
     args.check(source.count())?;
+    let selected = args.selected(source.count());
     let mut renderer = renderer(args, progress)?;
     let adapter = renderer.info().clone();
     let settings = FilmSettings {
-        size: source.size,
+        size: [film.width, film.height],
         frames_per_second: film.fps,
-        frames: args.frames.clone(),
-        video: if args.frames.is_some() { Video::None } else { Video::Whole },
+        supersampling: args.supersample,
+        frames: selected.clone(),
+        video: if selected.is_some() { Video::None } else { Video::Whole },
         ..FilmSettings::default()
     };
     let report = film::produce(&settings, output, renderer.as_mut(), &source, &mut |at| progress.frame(at))?;

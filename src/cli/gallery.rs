@@ -46,36 +46,41 @@ pub fn run(args: &GalleryArgs) -> anyhow::Result<Verdict> {
     for (name, text) in BUILT_IN {
         let (_, case) = Scene::parse(text, name)?;
         let path = |extension: &str| args.output.join(format!("{name}.{extension}"));
-        write(&path("png"), &picture(&case, renderer.as_mut(), &progress)?)?;
-        write(&path("gif"), &short_loop(&case, renderer.as_mut(), &progress)?)?;
+        write(&path("png"), &picture(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
+        write(&path("gif"), &short_loop(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
     }
     Ok(Verdict::Done)
 }
 
 fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    write_atomically(path, |writer| Ok(writer.write_all(bytes)?))?;
+    write_atomically(path, |writer| writer.write_all(bytes))?;
     print(&path.display().to_string())
 }
 
 /// The case in the engine, ready to be drawn.
-fn stage(case: &Case, progress: &Progress) -> anyhow::Result<Stage> {
+fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<Stage> {
     let recording = motions::in_engine(case, &motions::start(case)?, motions::film_sampling(case))?;
-    film::stage(case, Shown::of_engine(&recording)?, progress)
+    film::stage(case, Shown::of_engine(&recording)?, supersample, progress)
 }
 
-fn picture(case: &Case, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {
-    let stage = stage(case, progress)?;
+fn picture(case: &Case, supersample: u32, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {
+    let stage = stage(case, supersample, progress)?;
     let (image, _) = renderer.draw(&stage.frame((PICTURE_AT * stage.frame_count() as f64) as u64))?;
     encode_png(&scaled(&image, PICTURE)).context("the picture could not be encoded")
 }
 
 /// The rig alone: panels could not be read at this size.
-fn short_loop(case: &Case, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {
+fn short_loop(
+    case: &Case,
+    supersample: u32,
+    renderer: &mut dyn Renderer,
+    progress: &Progress,
+) -> anyhow::Result<Vec<u8>> {
     let mut case = case.clone();
     case.direction.panels = Some(Vec::new());
     case.film.fps = LOOP_RATE;
     case.film.speed *= LOOP_SPEED;
-    let stage = stage(&case, progress)?;
+    let stage = stage(&case, supersample, progress)?;
     let first = (LOOP_AT * stage.frame_count() as f64) as u64;
     let frames = (first..stage.frame_count().min(first + LOOP_FRAMES))
         .map(|index| Ok(scaled(&renderer.draw(&stage.frame(index))?.0, LOOP)))

@@ -26,6 +26,7 @@ mod run;
 mod simulate;
 mod slow_flow;
 mod story;
+mod sweep;
 mod trajectory_table;
 
 use clap::{Parser, Subcommand};

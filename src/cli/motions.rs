@@ -1,5 +1,6 @@
 //! A case set in motion: by the engine and by the exact solution, from the same start and sampled at the same times.
 
+use super::sweep;
 use crate::averaging::{EnergyDefinition, EnergyFrequency, Interpolation, RestoredSlowFlow};
 use crate::compare::{self, Expectation};
 use crate::dynamics::{Flow, Sampling, State, Trajectory};
@@ -42,10 +43,10 @@ pub fn start(case: &Case) -> anyhow::Result<State> {
     }
 }
 
-/// Sampling of a filmed motion: a whole number of samples per frame.
+/// Sampling of a filmed motion: a whole number of samples per frame, or per step of a sweep.
 pub fn film_sampling(case: &Case) -> Sampling {
-    let frame = case.frame_interval();
-    Sampling { interval: frame / (frame / FINEST).ceil(), t_end: case.duration }
+    let whole = case.ramp.map_or(case.frame_interval(), |ramp| ramp.hold);
+    Sampling { interval: whole / (whole / FINEST).ceil(), t_end: case.duration }
 }
 
 /// Engine settings of a case. Where the scene leaves the step free it divides the sampling interval, so that no sample needs
@@ -100,6 +101,9 @@ fn check_step(case: &Case, step: f64) -> anyhow::Result<()> {
 
 /// The motion in Rapier.
 pub fn in_engine(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result<Recording> {
+    if let Some(ramp) = case.ramp {
+        return sweep::in_engine(case, ramp, start, sampling);
+    }
     let rig = TwoMassRig::new(case.parameters)?;
     let settings = engine_settings(case, sampling);
     check_step(case, settings.step)?;
@@ -113,6 +117,9 @@ pub fn in_engine(case: &Case, start: &State, sampling: Sampling) -> anyhow::Resu
 
 /// The exact motion.
 pub fn exactly(case: &Case, start: &State, sampling: Sampling) -> anyhow::Result<Trajectory> {
+    if let Some(ramp) = case.ramp {
+        return sweep::exactly(case, ramp, start, sampling);
+    }
     let rig = TwoMassRig::new(case.parameters)?;
     Ok(match case.prescribed {
         Some(motion) => exact::PrescribedFlow::new(rig.chain(), motion)?.trajectory(start, sampling)?,
@@ -146,10 +153,12 @@ pub fn engine_info(settings: &EngineSettings) -> EngineInfo {
 /// the rate at which the linear rig grows.
 pub fn expectation(case: &Case, settings: &EngineSettings, recording: &Recording) -> anyhow::Result<Expectation> {
     let end = recording.trajectory.last().map_or(case.duration, |sample| sample.time);
-    let growth_rate = match (case.prescribed, exact_limit_cycle(case.parameters)) {
+    // Of a sweep the rate where it is strongest bounds the others.
+    let parameters = RigParameters { xi1: case.excitation().strongest(), ..case.parameters };
+    let growth_rate = match (case.prescribed, exact_limit_cycle(parameters)) {
         (Some(_), _) => 0.0,
         (None, Ok(orbit)) => (orbit.section_multipliers()[0].norm().ln() * 2.0 / orbit.period).max(0.0),
-        (None, Err(_)) => (-0.5 * case.parameters.xi1).max(0.0),
+        (None, Err(_)) => (-0.5 * parameters.xi1).max(0.0),
     };
     Ok(Expectation {
         horizon: case.horizon.min(end),

@@ -82,7 +82,7 @@ impl Finished {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Verdict> {
-    write_atomically(path, |writer| Ok(writer.write_all(bytes)?))?;
+    write_atomically(path, |writer| writer.write_all(bytes))?;
     print(&path.display().to_string())?;
     Ok(Verdict::Done)
 }

@@ -8,6 +8,7 @@ use super::run::default_directory;
 use super::trajectory_table::from_table;
 use super::{Verdict, motions};
 use crate::film::encode_png;
+use crate::render::shrunk;
 use crate::scene::{Case, Film};
 use crate::store::{Existing, Origin, OutputDir, read_table, read_whole, sha256_hex, write_atomically};
 use anyhow::{Context, ensure};
@@ -39,7 +40,7 @@ pub struct RenderArgs {
     #[arg(long = "with", id = "solver", value_enum, default_value_t = Solver::Rapier)]
     solver: Solver,
     /// Draw only the picture at this time of the motion, in the units of the scene, and write it to -o.
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, conflicts_with = "frames")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, conflicts_with_all = ["frames", "shard"])]
     at: Option<f64>,
     #[command(flatten)]
     draw: DrawArgs,
@@ -71,7 +72,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         json!({ "case": case, "with": solver, "trajectory": args.trajectory, "trajectory_sha256": stored });
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
-    let stage = film::stage(&case, shown, &progress)?;
+    let stage = film::stage(&case, shown, args.draw.supersample, &progress)?;
     let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
     if args.common.json {
         let document =
@@ -93,7 +94,7 @@ impl RenderArgs {
             path.display()
         );
         ensure!(self.common.force || !path.exists(), "{} exists: replace it with --force", path.display());
-        let (stage, scale) = (film::stage(case, shown, progress)?, case.scales.time);
+        let (stage, scale) = (film::stage(case, shown, self.draw.supersample, progress)?, case.scales.time);
         ensure!(
             (0.0..=stage.end()).contains(&(time / scale)),
             "--at {time} is not in the motion: it lasts from 0 to {}",
@@ -101,8 +102,8 @@ impl RenderArgs {
         );
         let mut renderer = film::renderer(&self.draw, progress)?;
         let (image, _) = renderer.draw(&stage.frame_at(time / scale))?;
-        let bytes = encode_png(&image).context("the picture could not be encoded")?;
-        write_atomically(path, |writer| Ok(writer.write_all(&bytes)?))?;
+        let bytes = encode_png(&shrunk(&image, self.draw.supersample)).context("the picture could not be encoded")?;
+        write_atomically(path, |writer| writer.write_all(&bytes))?;
         if self.common.json {
             let parameters = json!({ "case": case, "at": time });
             print(&Document::new("render", parameters).with("files", json!([path])).text()?)?;
@@ -139,6 +140,7 @@ impl RenderArgs {
         [film.width, film.height] = self.input.film.size.unwrap_or([film.width, film.height]);
         film.fps = self.input.film.fps.unwrap_or(film.fps);
         film.speed = self.input.film.speed.unwrap_or(film.speed);
+        film.theme = self.input.film.theme.unwrap_or(film.theme);
         let case = case.refilmed(film, &path.display().to_string())?;
         Ok((case, Shown::of(&trajectory)?))
     }

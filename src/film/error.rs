@@ -16,6 +16,8 @@ pub enum FilmError {
     Range { start: u64, end: u64, count: u64 },
     #[error("{frames_per_second} frames per second cannot be filmed: choose 1 to {limit}")]
     FrameRate { frames_per_second: u32, limit: u32 },
+    #[error("frames cannot be drawn {found} times as large: choose 1 to {limit}")]
+    Supersampling { found: u32, limit: u32 },
     #[error("the film cannot be encoded with quantiser {quantiser}: choose {best} (best) to {worst} (worst)")]
     Quantiser { quantiser: u8, best: u8, worst: u8 },
     #[error(

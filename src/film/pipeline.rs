@@ -10,7 +10,7 @@ use super::plan::{Finished, Plan, frame_name};
 use super::report::{FilmReport, Progress, StageTimes};
 use super::settings::FilmSettings;
 use super::{manifest, picture};
-use crate::render::{DrawList, Renderer};
+use crate::render::{DrawList, Renderer, shrunk};
 use crate::store::{OutputDir, read_whole};
 use image::RgbaImage;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -152,9 +152,13 @@ fn draw(
     let begin = Instant::now();
     let list: DrawList = source.frame(index).map_err(|source| FilmError::Source { index, source })?;
     times.scene += begin.elapsed();
-    check_size(settings, index, list.size)?;
+    let drawn_size = settings.drawn_size();
+    check_drawn(drawn_size, index, list.size)?;
     let (image, spent) = renderer.draw(&list).map_err(|source| FilmError::Render { index, source })?;
-    check_size(settings, index, [image.width(), image.height()])?;
+    check_drawn(drawn_size, index, [image.width(), image.height()])?;
+    let begin = Instant::now();
+    let image = if settings.supersampling > 1 { shrunk(&image, settings.supersampling) } else { image };
+    times.draw += begin.elapsed();
     times.draw += spent.draw;
     times.read_back += spent.read_back;
     times.overlay += spent.overlay;
@@ -162,10 +166,14 @@ fn draw(
 }
 
 fn check_size(settings: &FilmSettings, index: u64, found: [u32; 2]) -> Result<(), FilmError> {
-    if found == settings.size {
+    check_drawn(settings.size, index, found)
+}
+
+fn check_drawn(expected: [u32; 2], index: u64, found: [u32; 2]) -> Result<(), FilmError> {
+    if found == expected {
         return Ok(());
     }
-    let ([width, height], [found_width, found_height]) = (settings.size, found);
+    let ([width, height], [found_width, found_height]) = (expected, found);
     Err(FilmError::FrameSize { index, width, height, found_width, found_height })
 }
 

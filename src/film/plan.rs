@@ -46,7 +46,10 @@ impl Plan {
         let selected = settings.selected(count)?;
         let [width, height] = settings.size;
         // Another device draws slightly other pixels: its frames are not mixed in.
-        let frame_key = format!("{width}x{height} {} {}", adapter.backend, adapter.adapter);
+        let mut frame_key = format!("{width}x{height} {} {}", adapter.backend, adapter.adapter);
+        if settings.supersampling > 1 {
+            frame_key.push_str(&format!(" {} times as large", settings.supersampling));
+        }
         let trusted = |index| Some((index, output.trusted(&frame_name(index), &frame_key)?.sha256));
         let finished: Finished = (0..count).filter_map(trusted).collect();
         let film = match settings.video {

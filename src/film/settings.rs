@@ -10,6 +10,9 @@ const QUANTISERS: RangeInclusive<u8> = 12..=51;
 /// Frame times have to stay apart in the film file's clock of 90 kHz, and displays end far below.
 const MOST_FRAMES_PER_SECOND: u32 = 1000;
 
+/// Beyond, more samples are not seen.
+const MOST_SUPERSAMPLING: u32 = 4;
+
 /// Which film file is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Video {
@@ -28,6 +31,8 @@ pub struct FilmSettings {
     /// where one is odd.
     pub size: [u32; 2],
     pub frames_per_second: u32,
+    /// Frames are drawn this many times as wide and high, and made smaller: 1 to 4.
+    pub supersampling: u32,
     /// H.264 quantiser: 12 best, 51 worst; measured at 1280x720: 18 gives about 48 dB, 22 about 46 dB.
     pub quantiser: u8,
     /// Draw these frames only; `None` for all.
@@ -38,7 +43,14 @@ pub struct FilmSettings {
 impl Default for FilmSettings {
     /// 1280x720, 30 frames per second, quantiser 20, all frames, one film.
     fn default() -> Self {
-        Self { size: [1280, 720], frames_per_second: 30, quantiser: 20, frames: None, video: Video::Whole }
+        Self {
+            size: [1280, 720],
+            frames_per_second: 30,
+            supersampling: 1,
+            quantiser: 20,
+            frames: None,
+            video: Video::Whole,
+        }
     }
 }
 
@@ -60,6 +72,9 @@ impl FilmSettings {
         if !(1..=MOST_FRAMES_PER_SECOND).contains(&frames_per_second) {
             return Err(FilmError::FrameRate { frames_per_second, limit: MOST_FRAMES_PER_SECOND });
         }
+        if !(1..=MOST_SUPERSAMPLING).contains(&self.supersampling) {
+            return Err(FilmError::Supersampling { found: self.supersampling, limit: MOST_SUPERSAMPLING });
+        }
         if !QUANTISERS.contains(&quantiser) {
             let (best, worst) = QUANTISERS.into_inner();
             return Err(FilmError::Quantiser { quantiser, best, worst });
@@ -71,6 +86,11 @@ impl FilmSettings {
             return Err(FilmError::VideoSize { width, height, least, long, short });
         }
         Ok(())
+    }
+
+    /// Size in which frames are drawn.
+    pub(super) fn drawn_size(&self) -> [u32; 2] {
+        self.size.map(|side| side.saturating_mul(self.supersampling))
     }
 
     /// Size of the film: the frames', made even.

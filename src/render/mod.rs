@@ -12,6 +12,7 @@ mod portable;
 mod renderer;
 mod retry;
 pub mod shapes;
+mod shrink;
 mod view;
 
 pub use cpu::CpuRenderer;
@@ -22,3 +23,4 @@ pub use error::RenderError;
 pub use open::{RendererChoice, open};
 pub use overlay::text_width;
 pub use renderer::{AdapterInfo, DrawTimes, Renderer};
+pub use shrink::shrunk;

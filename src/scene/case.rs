@@ -4,6 +4,7 @@ use super::description::{Engine, Film, Initial, MotionKind, Scene};
 use super::direction::{Direction, Panel};
 use super::disk::DiskCase;
 use super::error::{Fault, Place, SceneError};
+use super::ramp::{Excitation, Ramp};
 use crate::model::{ParameterError, PrescribedMotion, Range, RigParameters, Scales};
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +21,8 @@ pub struct Case {
     pub parameters: RigParameters,
     /// Unity for a non-dimensional scene.
     pub scales: Scales,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramp: Option<Ramp>,
     pub initial: Initial,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prescribed: Option<PrescribedMotion>,
@@ -79,6 +82,7 @@ impl Scene {
             caption: self.caption.clone(),
             parameters,
             scales,
+            ramp: self.checked_ramp(&parameters)?,
             initial: self.initial_state(&scales)?,
             prescribed: self.prescribed_motion(&scales)?,
             disk: self.disk_case()?,
@@ -125,6 +129,17 @@ impl Scene {
         }
     }
 
+    fn checked_ramp(&self, parameters: &RigParameters) -> Result<Option<Ramp>, Refusal> {
+        let Some(ramp) = self.ramp else { return Ok(None) };
+        if self.rig_si.is_some() || self.prescribed.is_some() {
+            return Err(("ramp".to_owned(), Fault::RampOfWhat));
+        }
+        let end = RigParameters { xi1: ramp.xi1_end, ..*parameters };
+        end.validated().map_err(|fault| ("ramp.xi1_end".to_owned(), fault.into()))?;
+        checked(Range::Positive, "ramp.hold", ramp.hold)?;
+        Ok(Some(ramp))
+    }
+
     fn checked_direction(&self) -> Result<Direction, Refusal> {
         let fault = |(field, allowed)| (format!("direction.{field}"), Fault::Direction { field, allowed });
         self.direction.check().map_err(fault)?;
@@ -164,6 +179,12 @@ fn film_settings(film: Film, scales: &Scales) -> Result<Film, Refusal> {
 }
 
 impl Case {
+    /// The self-excitation over the time of the motion.
+    #[must_use]
+    pub fn excitation(&self) -> Excitation {
+        Excitation { start: self.parameters.xi1, duration: self.duration, ramp: self.ramp }
+    }
+
     /// The panels of the film: those asked for, or all that say something about the motion.
     #[must_use]
     pub fn panels(&self) -> &[Panel] {

@@ -3,6 +3,7 @@
 
 use super::direction::Direction;
 use super::disk::DiskStart;
+use super::ramp::Ramp;
 use crate::model::{BladedDisk, DimensionalRig, PrescribedMotion, RigParameters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,6 +29,9 @@ pub struct Scene {
     /// How the blades of the disk start; at rest without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub disk_start: Option<DiskStart>,
+    /// Sweeps the self-excitation; only with a non-dimensional rig and a free motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramp: Option<Ramp>,
     #[serde(default)]
     pub initial: Initial,
     /// Moves mass 1 as `amplitude sin(angular_frequency t)` and holds mass 2. Of `initial` only the slider force of a state counts then; it is 0 without one.

@@ -39,6 +39,8 @@ pub enum Fault {
     Whole { field: &'static str, found: u64, allowed: &'static str },
     #[error("{field} is not allowed as it is: it must be {allowed}")]
     Direction { field: &'static str, allowed: &'static str },
+    #[error("a ramp of xi1 goes with [rig] and a free motion only: leave out [rig_si] and [prescribed], or the ramp")]
+    RampOfWhat,
     #[error("a story has at least one scene: add [[scene]]")]
     EmptyStory,
     #[error("all scenes of a story need the same width, height and fps: this one has others than the first")]

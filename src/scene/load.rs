@@ -6,12 +6,13 @@ use super::error::{Place, SceneError};
 use std::path::Path;
 
 /// The scene that runs when none is named, and the others that come with the program: name and text.
-pub const BUILT_IN: [(&str, &str); 6] = [
+pub const BUILT_IN: [(&str, &str); 7] = [
     ("limit_torus", include_str!("../../scenes/limit_torus.toml")),
     ("limit_cycle", include_str!("../../scenes/limit_cycle.toml")),
     ("stick", include_str!("../../scenes/stick.toml")),
     ("chaos", include_str!("../../scenes/chaos.toml")),
     ("divergence", include_str!("../../scenes/divergence.toml")),
+    ("sweep", include_str!("../../scenes/sweep.toml")),
     ("hysteresis", include_str!("../../scenes/hysteresis.toml")),
 ];
 

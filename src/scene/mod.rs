@@ -6,6 +6,7 @@ mod direction;
 mod disk;
 mod error;
 mod load;
+mod ramp;
 mod story;
 
 pub use case::Case;
@@ -14,6 +15,7 @@ pub use direction::{CameraMove, Caption, Direction, Easing, Key, Panel, SlowMoti
 pub use disk::{DiskCase, DiskStart, WaveStart};
 pub use error::{Fault, Place, SceneError};
 pub use load::BUILT_IN;
+pub use ramp::{Excitation, Ramp};
 pub use story::Story;
 
 impl Scene {

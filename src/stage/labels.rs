@@ -69,10 +69,10 @@ pub fn draw_status(
         format!("t = {:.3} s", now.time * case.scales.time)
     };
     out.push(text(origin + Vec2::new(94.0, 21.0) * scale, 20.0 * scale, palette.text, true, time));
-    let p = case.parameters;
+    let (p, xi1) = (case.parameters, case.excitation().at(now.time));
     let parameters = match case.prescribed {
         None => {
-            format!("ξ₁ = {}   ξ₂ = {}   κ = {}   γ = {}", short(p.xi1), short(p.xi2), short(p.kappa), short(p.gamma))
+            format!("ξ₁ = {}   ξ₂ = {}   κ = {}   γ = {}", short(xi1), short(p.xi2), short(p.kappa), short(p.gamma))
         }
         Some(m) => format!("x₁ = {} sin({} t)", short(m.amplitude), short(m.angular_frequency)),
     };

@@ -130,8 +130,7 @@ impl Stage {
         labels::draw_status(&self.case, palette, now, (status, scene.max.x), scale, out);
         let anchors = self.rig.anchors(now);
         // The springs pass behind the letter of the normal force.
-        if let Some(place) = camera.project(anchors.normal_force, size) {
-            let centre = place + Vec2::new(-17.0, 3.0) * scale;
+        if let Some(centre) = camera.project(anchors.normal_force, size) {
             let fill = palette.panel.with_alpha(0.65);
             out.push(OverlayItem::Disc { centre, radius: 10.0 * scale, fill, stroke: None });
         }
@@ -150,7 +149,7 @@ impl Stage {
         for (place, name) in anchors.masses.into_iter().zip(["1", "2"]) {
             word(place, 22.0, palette::CARRIAGE_TEXT, name, Vec2::new(0.0, 8.0));
         }
-        word(anchors.normal_force, 14.0, palette.text, "N", Vec2::new(-17.0, 8.0));
+        word(anchors.normal_force, 14.0, palette.text, "N", Vec2::new(0.0, 5.0));
         word(anchors.pad, 11.0, palette::LABEL_ON_METAL, "friction pad", Vec2::ZERO);
         let above_status = Vec2::new(0.0, 14.0) * scale;
         if self.case.prescribed.is_none() {

@@ -69,6 +69,9 @@ fn round_tick(wanted: f64) -> f64 {
         .unwrap_or(10.0 * decade)
 }
 
+/// Panels let a little of the scene through.
+pub const PANEL_ALPHA: f32 = 0.95;
+
 /// A plot: where it is, and what its axes mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
@@ -105,7 +108,7 @@ impl Plot {
         out.push(OverlayItem::Box {
             area: self.panel,
             corner_radius: 8.0 * self.scale,
-            fill: self.palette.panel.with_alpha(0.88),
+            fill: self.palette.panel.with_alpha(PANEL_ALPHA),
             stroke: Some(self.stroke(1.0, self.palette.panel_edge)),
         });
         // The label of the x axis stands at the right end of the tick labels, which leave it room.

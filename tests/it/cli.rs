@@ -424,6 +424,26 @@ fn a_story_is_filmed_scene_by_scene_and_its_manifest_says_what_each_frame_shows(
     assert_eq!([brightest(12), brightest(13)], [0, 0]);
     assert!(brightest(6) > 100 && brightest(0) > 200);
     refused(&["run", "--story", story, "--xi1", "-0.1"], &["--xi1"]);
+    // Three parts drawn apart are the whole.
+    let parts = folder.path().join("parts");
+    for part in ["1/3", "3/3", "2/3"] {
+        let drawn = document(&[
+            "run",
+            "--story",
+            story,
+            "--renderer",
+            "cpu",
+            "-o",
+            parts.to_str().unwrap(),
+            "--shard",
+            part,
+            "--json",
+            "-q",
+        ]);
+        assert_eq!(drawn["frames"]["drawn"].as_u64().unwrap(), if part == "1/3" { 6 } else { 7 });
+    }
+    assert_eq!(fs::read(parts.join("frames.json")).unwrap(), fs::read(output.join("frames.json")).unwrap());
+    refused(&["run", "--shard", "4/3"], &["K from 1 to N"]);
     let (sheet, film) = (folder.path().join("sheet.png"), folder.path().join("loop.gif"));
     let (sheet, film) = (sheet.to_str().unwrap(), film.to_str().unwrap());
     let made = |args: &[&str]| assert!(stickslip(args).status.success(), "{args:?}");

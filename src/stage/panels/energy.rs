@@ -10,6 +10,7 @@ use crate::model::{EnergyLedger, Scales};
 use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke};
 use crate::stage::motion::{Instant, Motion};
 use crate::stage::palette::Palette;
+use crate::stage::plot::PANEL_ALPHA;
 use glam::Vec2;
 use std::f64::consts::TAU;
 
@@ -87,7 +88,7 @@ impl Energy {
         out.push(OverlayItem::Box {
             area: self.place,
             corner_radius: 8.0 * s,
-            fill: palette.panel.with_alpha(0.88),
+            fill: palette.panel.with_alpha(PANEL_ALPHA),
             stroke: Some(Stroke { width: s, colour: palette.panel_edge }),
         });
         let unit = if self.scales == Scales::UNITY { "" } else { " [J]" };

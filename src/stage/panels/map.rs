@@ -4,6 +4,7 @@
 use super::Frame;
 use crate::model::Scales;
 use crate::render::{Anchor, OverlayItem, Rectangle};
+use crate::scene::Excitation;
 use crate::stage::envelope::Envelope;
 use crate::stage::motion::Instant;
 use crate::stage::plot::{Axis, Plot};
@@ -30,14 +31,14 @@ pub(super) struct Map {
     plot: Plot,
     map: DampingMap,
     scales: Scales,
-    xi1: f64,
+    xi1: Excitation,
     envelope: Envelope,
 }
 
 impl Map {
-    pub fn new(frame: &Frame<'_>, place: Rectangle, map: DampingMap, xi1: f64) -> Self {
-        let strongest = map.motions.iter().map(|motion| -motion.0).fold(-1.05 * xi1, f64::max).max(0.02);
-        let axes = [Axis::exactly((-xi1).min(0.0), strongest), Axis::exactly(0.0, HIGHEST * frame.scales.length)];
+    pub fn new(frame: &Frame<'_>, place: Rectangle, map: DampingMap, xi1: Excitation) -> Self {
+        let strongest = map.motions.iter().map(|motion| -motion.0).fold(-1.05 * xi1.strongest(), f64::max).max(0.02);
+        let axes = [Axis::exactly((-xi1.start).min(0.0), strongest), Axis::exactly(0.0, HIGHEST * frame.scales.length)];
         let labels = ["−ξ₁".to_owned(), frame.label("a₁", "m")];
         let plot = frame.plot(place, "Amplitude over self-excitation", labels, axes);
         Self { plot, map, scales: frame.scales, xi1, envelope: Envelope::of_mass(frame.motion, 0) }
@@ -82,7 +83,7 @@ impl Map {
     /// The amplitude now, at the last turning point, on a line at the scene's own damping.
     fn draw_here(&self, now: &Instant, out: &mut Vec<OverlayItem>) {
         let (plot, colour) = (&self.plot, self.plot.palette.masses[0]);
-        let x = -self.xi1;
+        let x = -self.xi1.at(now.time);
         plot.draw_line([(x, plot.y.min), (x, plot.y.max)].into_iter(), 1.2, colour.with_alpha(0.6), out);
         if let Some([_, last]) = self.envelope.known(now.time) {
             let amplitude = (self.envelope.at(last) * self.scales.length).min(plot.y.max);

@@ -85,7 +85,7 @@ impl Panels {
             Panel::Phase => Drawn::Phase(PhasePlane::new(&frame, place)),
             Panel::Amplitudes => Drawn::Amplitudes(Amplitudes::new(&frame, place)),
             Panel::Energy => Drawn::Energy(Energy::new(&frame, place, case.prescribed.is_some())),
-            Panel::Map => Drawn::Map(Map::new(&frame, place, map.cloned().unwrap_or_default(), case.parameters.xi1)),
+            Panel::Map => Drawn::Map(Map::new(&frame, place, map.cloned().unwrap_or_default(), case.excitation())),
         };
         Self { drawn: case.panels().iter().zip(places).map(panel).collect() }
     }

@@ -7,9 +7,9 @@
 //! pointing into the carriage where it is positive, as for all xi1 < 0, and out of it where energy is taken.
 
 use super::{HALF, HEIGHT};
-use crate::model::RigParameters;
 use crate::render::shapes::arrow;
 use crate::render::{Colour, Object};
+use crate::scene;
 use crate::stage::motion::{Instant, Motion};
 use crate::stage::palette;
 use glam::{Affine3A, Mat3, Vec3};
@@ -21,18 +21,18 @@ const LEAST: f32 = 0.03;
 
 #[derive(Debug, Clone)]
 pub(super) struct Excitation {
-    xi1: f64,
+    xi1: scene::Excitation,
     colour: Colour,
     length_per_power: f32,
 }
 
-fn powers(xi1: f64, at: &Instant) -> [f64; 2] {
+fn powers(xi1: scene::Excitation, at: &Instant) -> [f64; 2] {
+    let xi1 = xi1.at(at.time);
     at.velocities.map(|v| -xi1 * v * v)
 }
 
 impl Excitation {
-    pub fn new(parameters: &RigParameters, motion: &Motion, colour: Colour) -> Self {
-        let xi1 = parameters.xi1;
+    pub fn new(xi1: scene::Excitation, motion: &Motion, colour: Colour) -> Self {
         let largest = motion.largest(|at| {
             let [first, second] = powers(xi1, at);
             first.abs().max(second.abs())
@@ -64,7 +64,7 @@ impl Excitation {
 mod tests {
     use super::*;
     use crate::dynamics::{Outcome, Sample, State, Trajectory};
-    use crate::model::{ContactState, EnergyLedger, TwoMassRig};
+    use crate::model::{ContactState, EnergyLedger, RigParameters, TwoMassRig};
 
     /// Against the chain's own power, which is computed from its damping matrices.
     #[test]
@@ -78,7 +78,8 @@ mod tests {
             ledger: EnergyLedger::default(),
         };
         let motion = Motion::new(&Trajectory { samples: vec![sample], events: vec![], outcome: Outcome::Completed });
-        let [first, second] = powers(parameters.xi1, &motion.unwrap().at(0.0));
+        let xi1 = scene::Excitation { start: parameters.xi1, duration: 1.0, ramp: None };
+        let [first, second] = powers(xi1, &motion.unwrap().at(0.0));
         assert!((first + second - chain_power).abs() < 1e-15 && first > second && second > 0.0);
     }
 }

@@ -71,9 +71,9 @@ impl Jenkins {
         self.draw_trail(motion, now, palette, objects);
         // The faster it slides, the brighter it glows.
         let heat = if self.fastest > 0.0 { (sliding_speed(now) / self.fastest) as f32 } else { 0.0 };
-        let body = palette::glowing(palette.contact(now.contact), 0.12 + 0.75 * heat);
+        let body = palette::glowing(palette.contact(now.contact), 0.1 + 0.4 * heat);
         objects.push(object(self.slider.clone(), Vec3::new(x, y, z), body));
-        let foot = Material { glow: 1.2 * heat, ..palette::BRASS };
+        let foot = Material { glow: 0.6 * heat, ..palette::BRASS };
         let foot = if heat > 0.0 { Material { colour: palette.slip, ..foot } } else { foot };
         objects.push(object(self.foot.clone(), Vec3::new(x, PAD_TOP + 0.5 * FOOT[1], z), foot));
         let downwards = Mat3::from_cols(Vec3::NEG_Y, Vec3::X, Vec3::Z);
@@ -101,7 +101,7 @@ impl Jenkins {
             let freshness = (-age / FADING).exp() as f32;
             let x = left + width * (index as f32 + 0.5);
             let colour = mixed(palette::PAD.colour, palette.slip, freshness);
-            let material = palette::glowing(colour, 0.55 * freshness * freshness);
+            let material = palette::glowing(colour, 0.25 * freshness * freshness);
             let strip = object(self.cell.clone(), Vec3::new(x, PAD_TOP + 0.0005, JENKINS_LINE[1]), material);
             objects.push(Object { casts_shadow: false, ..strip });
         }

@@ -78,7 +78,7 @@ impl RigModel {
             excitation: case
                 .prescribed
                 .is_none()
-                .then(|| Excitation::new(&case.parameters, motion, palette.excitation)),
+                .then(|| Excitation::new(case.excitation(), motion, palette.excitation)),
             magnification,
         }
     }
@@ -138,7 +138,7 @@ impl RigModel {
         let slider = self.jenkins.place(now);
         Anchors {
             masses: [front(0), front(1)],
-            normal_force: Vec3::new(slider, jenkins::NORMAL_TOP, JENKINS_LINE[1]),
+            normal_force: Vec3::new(slider - 0.15, jenkins::NORMAL_TOP - 0.04, JENKINS_LINE[1]),
             pad: Vec3::new(SLIDER_REST, 0.2, JENKINS_LINE[1] + 0.24),
         }
     }

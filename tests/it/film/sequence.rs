@@ -140,3 +140,22 @@ fn a_frame_of_another_size_is_an_error() {
     assert!(matches!(error, FilmError::FrameSize { index: 0, .. }), "{error}");
     assert!(error.to_string().contains("64 x 64") && error.to_string().contains("64 x 48"), "{error}");
 }
+
+/// The fake draws a block of 8 by 8 pixels, of which a film half as large shows 4 by 4.
+#[test]
+fn supersampled_frames_are_drawn_larger_and_made_smaller() {
+    let place = tempfile::tempdir().unwrap();
+    let output = OutputDir::open(place.path(), &origin(), Existing::Resume).unwrap();
+    let source = FakeSource { count: 6, size: SIZE, stop: Stop::Never };
+    let half = FilmSettings { size: [SIZE[0] / 2, SIZE[1] / 2], supersampling: 2, ..settings() };
+    produce(&half, &output, &mut FakeRenderer::new(Stop::Never), &source, &mut |_| ()).unwrap();
+    let image = image::open(frame_path(place.path(), 5)).unwrap().to_rgba8();
+    assert_eq!(image.dimensions(), (32, 24));
+    // Bits of the index 5.
+    let bits = [0, 1, 2, 3].map(|bit| image.get_pixel(4 * bit + 2, 2).0[1] > 127);
+    assert_eq!(bits, [true, false, true, false]);
+    let error = FilmSettings { supersampling: 5, ..settings() };
+    let elsewhere = tempfile::tempdir().unwrap();
+    let (result, _) = run(elsewhere.path(), &error, 6, Stop::Never);
+    assert!(matches!(result.unwrap_err(), FilmError::Supersampling { found: 5, limit: 4 }));
+}

@@ -1,0 +1,46 @@
+//! Pictures drawn larger than wanted, made smaller: supersampling.
+
+use super::portable::{decode, encode};
+use image::{Rgba, RgbaImage};
+use rayon::prelude::*;
+
+/// The picture `factor` times smaller along both sides: each pixel the mean light of a square of `factor` by `factor`. What is left over at
+/// the right and lower edges is cut off. A factor of 0 counts as 1.
+#[must_use]
+pub fn shrunk(image: &RgbaImage, factor: u32) -> RgbaImage {
+    if factor <= 1 {
+        return image.clone();
+    }
+    let (width, height) = (image.width() / factor, image.height() / factor);
+    let mut small = RgbaImage::new(width, height);
+    let count = (factor * factor) as f32;
+    small.par_chunks_mut(4 * width.max(1) as usize).zip(0..height).for_each(|(row, y)| {
+        for (x, pixel) in (0..width).zip(row.chunks_exact_mut(4)) {
+            let square =
+                (0..factor * factor).map(|n| image.get_pixel(x * factor + n % factor, y * factor + n / factor));
+            let mut light = [0.0_f32; 3];
+            for Rgba([r, g, b, _]) in square {
+                light = [light[0] + decode(*r), light[1] + decode(*g), light[2] + decode(*b)];
+            }
+            let [r, g, b] = light.map(|sum| encode(sum / count));
+            pixel.copy_from_slice(&[r, g, b, 255]);
+        }
+    });
+    small
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_becomes_the_mean_light_of_its_square() {
+        let image = RgbaImage::from_fn(4, 2, |x, _| Rgba(if x % 2 == 0 || x > 1 { [255; 4] } else { [0, 0, 0, 255] }));
+        let small = shrunk(&image, 2);
+        assert_eq!(small.dimensions(), (2, 1));
+        // Half the light is the sRGB code 188 (IEC 61966-2-1); half the code would be 128.
+        assert_eq!(small.get_pixel(0, 0).0, [188, 188, 188, 255]);
+        assert_eq!(small.get_pixel(1, 0).0, [255; 4]);
+        assert_eq!(shrunk(&image, 1), image);
+    }
+}
