@@ -14,6 +14,10 @@ pub enum DiskError {
     )]
     NotOneGroup,
     #[error(
+        "multipliers by nodal diameter need a ring of equal sectors: take the disk without its mistuning, with contacts on all sectors"
+    )]
+    NotCyclic,
+    #[error(
         "the wave of nodal diameter {wave} has no limit cycle that slips up to amplitude {amplitude}: the air damps it, or feeds it more than friction takes; choose another one"
     )]
     NoWave { wave: i64, amplitude: f64 },

@@ -87,13 +87,16 @@ pub fn blade_amplitudes(flow: &SparseFlow, orbit: &FlowOrbit, blades: usize) -> 
 /// included, the trivial one (`relative` 0, multiplier 1) too.
 ///
 /// # Errors
-/// [`DiskError::Orbit`] if the flow fails along the orbit.
+/// [`DiskError::NotCyclic`] unless all sectors are equal, [`DiskError::Orbit`] if the flow fails along the orbit.
 pub fn wave_multipliers(
     flow: &SparseFlow,
     disk: &BladedDisk,
     wave: NodalDiameter,
     orbit: &FlowOrbit,
 ) -> Result<Vec<WaveMultiplier>, DiskError> {
+    if !disk.is_cyclic()? || disk.friction.iter().any(|contacts| contacts.sectors.is_some()) {
+        return Err(DiskError::NotCyclic);
+    }
     let cell = Cell::of(disk.sectors, wave.signed());
     let n = flow.dimension();
     let (mut state, mut tangent) = (orbit.state.clone(), DMatrix::identity(n, n));

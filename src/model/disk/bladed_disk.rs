@@ -131,6 +131,13 @@ impl BladedDisk {
     /// # Errors
     /// As [`Aerodynamics::coefficients`].
     pub fn influence_coefficients(&self) -> Result<InfluenceCoefficients, ParameterError> {
+        if self.topology == Topology::Chain && matches!(self.aerodynamics, Some(Aerodynamics::Waves { .. })) {
+            return Err(ParameterError::OutOfRange {
+                field: "sectors of an open chain whose aerodynamics are given by waves".to_owned(),
+                found: self.sectors as f64,
+                allowed: "those of a ring: give influence coefficients instead",
+            });
+        }
         self.aerodynamics
             .as_ref()
             .map_or_else(|| Ok(InfluenceCoefficients::default()), |a| a.coefficients(self.sectors))
@@ -259,6 +266,9 @@ mod tests {
         assert!(heavy(1.1, None).chain().unwrap_err().to_string().contains("blade 0"));
         assert!(heavy(f64::NAN, None).chain().is_err());
         assert!(heavy(0.5, Some(vec![4])).chain().unwrap_err().to_string().contains("oscillator 4"));
+        let waves = Aerodynamics::Waves { damping: vec![0.0; 4], stiffness: None, reference_frequency: 1.0 };
+        let open = BladedDisk { topology: Topology::Chain, aerodynamics: Some(waves), ..BladedDisk::ring(4, 0.1) };
+        assert!(open.chain().unwrap_err().to_string().contains("give influence coefficients"));
         assert!(heavy(0.6, Some(vec![1, 1])).chain().unwrap_err().to_string().contains("blade 1"));
     }
 
