@@ -14,8 +14,6 @@ use nalgebra::Complex;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Nearest to 0 that xi1 starts from on the branch, in units of gamma: the cycle has amplitude 1.007 there.
-const BRANCH_START: f64 = -0.001;
 /// Longest motion that is averaged over: minutes of computing.
 const LONGEST: f64 = 1e8;
 
@@ -43,10 +41,15 @@ pub fn exact_flow(parameters: RigParameters) -> Result<TwoMassFlow, OrbitError> 
 
 type FlowAt = fn(RigParameters) -> Result<TwoMassFlow, OrbitError>;
 
+/// Where the branch starts: the cycle has amplitude 1.007 at most there, and it lies before the secondary Hopf point, which scales as kappa^2.
+fn branch_start(p: RigParameters) -> RigParameters {
+    RigParameters { xi1: -(0.001 * p.gamma).min(0.05 * p.kappa * p.kappa), ..p }
+}
+
 /// The branch of limit cycles over xi1 from near a1 = 1, of which the other parameters are given.
 pub fn lower_branch(p: RigParameters, heading: Heading) -> anyhow::Result<PseudoArclength<FlowAt>> {
     ensure!(p.kappa > 0.0, "kappa = {} is not allowed: the branch of limit cycles needs kappa > 0", p.kappa);
-    let start = RigParameters { xi1: BRANCH_START * p.gamma, ..p };
+    let start = branch_start(p);
     let orbit = limit_cycle(start, exact_flow)?;
     Ok(PseudoArclength::new(exact_flow as FlowAt, start, &orbit, RigParameter::Xi1, heading)?)
 }
