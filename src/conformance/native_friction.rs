@@ -35,6 +35,8 @@ const STOPPED: f64 = 0.01;
 /// Force under which a slider is held, and for how long.
 pub const HELD_FORCE: f64 = 0.5;
 pub const HOLDING_TIME: f64 = 4.0;
+/// Length of the free oscillation of a carriage that takes its light slider with it.
+pub const RIDING_TIME: f64 = 40.0;
 /// Length of a decay.
 const DECAY_TIME: f64 = 20.0;
 /// Length of a run of the two-mass rig, of which the last fifth is measured.
@@ -183,7 +185,7 @@ pub fn stick(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Res
 /// Whatever stops the engine, and a motion that is no oscillation.
 pub fn ride(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Oscillation, ConformanceError> {
     let flow = making.oscillator(bench, settings, 1e-3, Drive::Free)?;
-    let motion = run_free(flow, &MechanismSample::at(vec![1.0], vec![0.0], 1e-3), 40.0)?;
+    let motion = run_free(flow, &MechanismSample::at(vec![1.0], vec![0.0], 1e-3), RIDING_TIME)?;
     of_carriage(&motion, settings.step)
 }
 
