@@ -27,13 +27,13 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let top = (0..POINTS).max_by(|a, b| damping[*a].total_cmp(&damping[*b])).unwrap_or(0);
     let diverges = divergence(case.parameters, case.choose(0.001, 0.005), -0.4)?;
     let edge = diverges.and_then(|xi1| PerturbedLimitCycle::of(&case.at(xi1))).map(|cycle| cycle.sticking_angle);
-    let mut findings = Findings::default();
-    findings.checks = vec![
+    let checks = vec![
         Check::near("largest ω·d_eq", 1.0 / PI, damping[top], 1e-12, "sin²τ/π, rounding; τ = π/2 is one of the points"),
         Check::near("at the angle", 0.5 * PI, angles[top], 1e-12, "where sin τ = 1"),
         Check::near("k_eq there", 0.5, stiffness[top], 1e-12, "(2τ − sin 2τ)/(2π) at π/2"),
         Check::near("k_eq at the sticking limit", 1.0, stiffness[POINTS - 1], 1e-12, "nothing slips at τ = π"),
     ];
+    let mut findings = Findings { checks, ..Findings::default() };
     if let (Some(xi1), Some(edge)) = (diverges, edge) {
         findings.number("divergence of the exact motion", format!("ξ₁ = {xi1:.3}, τ = {edge:.4} by (25)"));
     }
