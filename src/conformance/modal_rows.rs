@@ -11,8 +11,10 @@ use std::f64::consts::TAU;
 /// rounding.
 pub const FORMULA_TOLERANCE: f64 = 0.02;
 
-/// Logarithms of eigenvalues near 1 are divided by steps down to 1e-3.
-const EIGENVALUE_ROUNDING: f64 = 1e-12;
+/// Eigenvalues of the matrix of a step are off by some 8 roundings, and the damping is `2/h` times their logarithm.
+fn eigenvalue_rounding(step: f64) -> f64 {
+    16.0 * f64::EPSILON / step
+}
 
 /// Rounding errors of the fit, in floors.
 const ROUNDINGS: f64 = 16.0;
@@ -67,7 +69,9 @@ impl ModeAt<'_> {
         let reason = format!(
             "2 % of the error that the difference equation has, and {ROUNDINGS} times what rounding does to it; {right}"
         );
-        let tolerance = FORMULA_TOLERANCE * (expected - exact).abs() + ROUNDINGS * self.rounding + EIGENVALUE_ROUNDING;
+        let tolerance = FORMULA_TOLERANCE * (expected - exact).abs()
+            + ROUNDINGS * self.rounding
+            + self.subject.dt.map_or(0.0, eigenvalue_rounding);
         let judgement = Judgement { basis: Basis::DifferenceEquation, expected, found, tolerance, reason };
         let row = self.subject.row(&format!("{}{quantity}", self.prefix), judgement);
         row.against(exact, limit).with_floor(self.rounding)
@@ -83,7 +87,7 @@ impl ModeAt<'_> {
             basis: Basis::Formula,
             expected: formula,
             found: self.found.damping,
-            tolerance: FORMULA_TOLERANCE * formula.abs() + ROUNDINGS * self.rounding + EIGENVALUE_ROUNDING,
+            tolerance: FORMULA_TOLERANCE * formula.abs() + ROUNDINGS * self.rounding + eigenvalue_rounding(step),
             reason: reason.to_owned(),
         };
         let limit = 2.0 * RIGHT / (10.0 * TAU / self.truth.angular_frequency);
