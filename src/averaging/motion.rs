@@ -29,6 +29,8 @@ const LONGEST_STEP: f64 = 2.0;
 /// Small against the separations of 1e-7 by which chaos is told from a torus.
 const TOLERANCE: Tolerance = Tolerance { relative: 1e-12, absolute: 1e-13, longest_step: LONGEST_STEP };
 /// Time between two looks for a reversal, a twelfth of a cycle.
+/// Velocities below this are rounding.
+const AT_REST: f64 = 1e-12;
 const SCAN_STEP: f64 = 0.5;
 const I: Complex<f64> = Complex::new(0.0, 1.0);
 
@@ -216,15 +218,30 @@ impl SlowMotion {
         low
     }
 
-    /// Reversals of mass 1, and the slips between them, in order.
+    /// Reversals of mass 1, and the slips between them, in order. A slip under way at the end has begun.
     fn hysteresis_events(&self) -> Vec<Event> {
         let im = |time: f64| self.slow_at(time).rotating(0).im;
         let event = |time: f64, kind| Event { time, element: 0, kind, state: self.state_at(time) };
+        // Angle since the reversal at `start`, less the one at which slip begins; `stop` is the reversal after it, where it is known.
+        let past = |t: f64, start: f64, stop: f64| {
+            let z = self.slow_at(t).rotating(0);
+            let angle = if t <= start {
+                0.0
+            } else if t >= stop {
+                PI
+            } else {
+                z.arg().rem_euclid(PI)
+            };
+            angle - sticking_angle(z.norm())
+        };
         let mut events = Vec::new();
-        let mut reversal = None::<f64>;
         let steps = (self.end / SCAN_STEP).ceil() as usize;
         let at = |n: usize| (n as f64 * SCAN_STEP).min(self.end);
-        let mut before = im(0.0);
+        let (mut reversal, mut before) = (None::<f64>, im(0.0));
+        if before.abs() < AT_REST {
+            // The motion starts at a reversal.
+            (reversal, before) = (Some(0.0), im(at(1)));
+        }
         for n in 0..steps {
             let after = im(at(n + 1));
             if (before < 0.0) == (after < 0.0) {
@@ -234,21 +251,15 @@ impl SlowMotion {
             let time = root(im, at(n), at(n + 1));
             let turned = self.slow_at(time).rotating(0).norm() > 1.0;
             if let (true, Some(start)) = (turned, reversal) {
-                let past = |t: f64| {
-                    let z = self.slow_at(t).rotating(0);
-                    let angle = if t <= start {
-                        0.0
-                    } else if t >= time {
-                        PI
-                    } else {
-                        z.arg().rem_euclid(PI)
-                    };
-                    angle - sticking_angle(z.norm())
-                };
-                events.push(event(root(past, start, time), EventKind::StickToSlip));
+                events.push(event(root(|t| past(t, start, time), start, time), EventKind::StickToSlip));
                 events.push(event(time, EventKind::SlipToStick));
             }
             reversal = Some(time);
+        }
+        let slips = |start: &f64| self.end > *start && past(self.end, *start, f64::INFINITY) > 0.0;
+        if let Some(start) = reversal.filter(slips) {
+            let begun = root(|t| past(t, start, f64::INFINITY), start, self.end);
+            events.push(event(begun, EventKind::StickToSlip));
         }
         events
     }

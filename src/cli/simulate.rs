@@ -23,7 +23,8 @@ enum Solver {
     Exact,
     /// The rig in the Rapier engine.
     Rapier,
-    /// Amplitudes and phases from the averaged equations, the fast oscillation restored.
+    /// Amplitudes and phases from the averaged equations, the fast oscillation restored. Starts on the exact limit cycle too, so that the
+    /// solvers can be compared; its energy residual is the error of averaging.
     SlowFlow,
 }
 

@@ -106,6 +106,10 @@ struct DoublingArgs {
 
 impl SlowArgs {
     fn rig(&self) -> anyhow::Result<RigParameters> {
+        ensure!(
+            self.rig.xi1.is_none(),
+            "--xi1 decides nothing here: bifurcations are looked for over xi1; leave it out"
+        );
         let mut scene = load(None)?;
         self.rig.apply(&mut scene)?;
         Ok(check(&scene, None)?.parameters)
@@ -138,17 +142,28 @@ impl SlowArgs {
 }
 
 pub fn run(args: &SlowFlowArgs) -> anyhow::Result<Verdict> {
-    let document = match &args.what {
+    match &args.what {
         What::Hopf(args) => hopf(args),
         What::Fold(args) => fold(args),
-        What::Doublings(args) => return doublings(args),
-    }?;
-    // A short table is no easier to read than the document.
-    print(&document.text()?)?;
+        What::Doublings(args) => doublings(args),
+    }
+}
+
+/// The document, or its rows as a table.
+fn tell(args: &PointArgs, document: &Document, rows: &[Value]) -> anyhow::Result<Verdict> {
+    if args.common.json {
+        return print(&document.text()?).map(|()| Verdict::Done);
+    }
+    print("xi1             a1            angular frequency")?;
+    let number = |row: &Value, name: &str| row[name].as_f64().unwrap_or(f64::NAN);
+    for row in rows {
+        let [xi1, a1, frequency] = ["xi1", "a1", "angular_frequency"].map(|name| number(row, name));
+        print(&format!("{xi1:<14.10}  {a1:<12.8}  {frequency:.8}"))?;
+    }
     Ok(Verdict::Done)
 }
 
-fn hopf(args: &PointArgs) -> anyhow::Result<Document> {
+fn hopf(args: &PointArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("slow-flow hopf")?;
     args.plot.check(args.common.force)?;
     let flow = args.slow.flow()?;
@@ -159,11 +174,12 @@ fn hopf(args: &PointArgs) -> anyhow::Result<Document> {
         .parameters()
         .analytic_hopf()
         .map_or(json!([]), |h| json!([{"xi1": h.start, "side": "start"}, {"xi1": h.end, "side": "end"}]));
-    Ok(Document::new("slow-flow hopf", args.slow.parameters()?)
+    let document = Document::new("slow-flow hopf", args.slow.parameters()?)
         .with("xi1", json!(points.first().map(|p| p.point.xi1)))
         .with("secondary_hopf", json!(rows(false)))
         .with("beyond_fold", json!(rows(true)))
-        .with("analytic", analytic))
+        .with("analytic", analytic);
+    tell(args, &document, &[rows(false), rows(true)].concat())
 }
 
 fn hopf_json(hopf: &SlowHopf) -> Value {
@@ -174,7 +190,7 @@ fn hopf_json(hopf: &SlowHopf) -> Value {
     })
 }
 
-fn fold(args: &PointArgs) -> anyhow::Result<Document> {
+fn fold(args: &PointArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("slow-flow fold")?;
     args.plot.check(args.common.force)?;
     let found = folds(args.slow.rig()?, LARGEST_AMPLITUDE)?;
@@ -188,11 +204,12 @@ fn fold(args: &PointArgs) -> anyhow::Result<Document> {
         .map(|fold| json!({"xi1": fold.cycle.xi1, "a1": fold.cycle.amplitude, "angular_frequency": fold.cycle.angular_frequency}))
         .collect();
     let first = found.first().with_context(|| format!("there is no fold up to a1 = {LARGEST_AMPLITUDE}"))?.cycle;
-    Ok(Document::new("slow-flow fold", args.slow.parameters()?)
+    let document = Document::new("slow-flow fold", args.slow.parameters()?)
         .with("xi1", json!(first.xi1))
         .with("a1", json!(first.amplitude))
         .with("angular_frequency", json!(first.angular_frequency))
-        .with("folds", json!(rows)))
+        .with("folds", json!(rows));
+    tell(args, &document, &rows)
 }
 
 /// The branch of limit cycles over xi1 with its secondary Hopf points.

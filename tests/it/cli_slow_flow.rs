@@ -25,11 +25,16 @@ fn bifurcations_of_the_slow_flow_are_printed_with_their_parameters() {
     assert!((number(&doublings["doublings"][1]["ratio"]) - 3.774).abs() < 5e-3);
     refused(&["slow-flow", "doublings", "--count", "0"], &["--count"]);
     refused(&["slow-flow", "hopf", "--kappa", "0"], &["kappa"]);
+    refused(&["slow-flow", "hopf", "--xi1", "-0.1"], &["--xi1"]);
     refused(&["slow-flow", "hopf", "--nodes", "1"], &["nodes"]);
 }
 
 #[test]
 fn motions_of_the_slow_flow_are_simulated_and_classified() {
+    // From a reversal on, the first slip within the first half cycle counts, and so does the one under way at the end.
+    let short = document(&["simulate", "--with", "slow-flow", "--t-end", "6", "--json"]);
+    assert_eq!(short["events"], 3);
+    assert_eq!(short["final"]["contact"], "slip+");
     let slow = document(&["simulate", "--with", "slow-flow", "--xi1", "-0.02", "--t-end", "50", "--json"]);
     assert_eq!(
         (slow["diverged"].as_bool(), slow["parameters"]["energy"].as_str()),
