@@ -2,8 +2,8 @@
 
 use super::scenario::Scenario;
 use super::scenarios::{
-    Chaos, CoupledOscillators, EnergyLedger, FreeFlight, FrictionDecay, Hysteresis, JointDrift, LimitCycle,
-    LinearOscillator, MechanismFriction, MechanismLinear, NegativeDamping, SecondaryHopf, Torus,
+    AmplitudeDiagram, Chaos, CoupledOscillators, EnergyLedger, FreeFlight, FrictionDecay, Hysteresis, JointDrift,
+    LimitCycle, LinearOscillator, MechanismFriction, MechanismLinear, NegativeDamping, SecondaryHopf, Torus,
 };
 
 /// All scenarios.
@@ -19,6 +19,7 @@ pub fn registry() -> Vec<Box<dyn Scenario>> {
         Box::new(LimitCycle),
         Box::new(Torus),
         Box::new(SecondaryHopf),
+        Box::new(AmplitudeDiagram),
         Box::new(Chaos),
         Box::new(EnergyLedger),
         Box::new(JointDrift),

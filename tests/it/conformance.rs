@@ -89,6 +89,26 @@ fn what_is_as_predicted_may_be_physically_wrong() {
 }
 
 #[test]
+fn at_the_defaults_a_torus_stands_where_the_exact_diagram_has_a_limit_cycle() {
+    let defaults = Configuration { precision: Precision::Double, ..Configuration::ENGINE_DEFAULTS };
+    let xi1 = "xi1 = -0.020";
+    for (configuration, steps, physics) in
+        [(defaults, 377, Physics::Wrong), (Configuration::RECIPE, 256, Physics::Right)]
+    {
+        let rows = rows("amplitude_diagram", xi1, configuration, &[steps]);
+        let row = |quantity: &str| rows.iter().find(|row| row.quantity == quantity).unwrap();
+        let (largest, smallest) = (row("largest_maximum"), row("smallest_maximum"));
+        for row in [largest, smallest] {
+            assert_eq!((row.verdict, row.physics), (Verdict::Passed, physics), "{row:?}");
+        }
+        // The exact cycle is stable down to -0.0346: the 0.001 at the start does not grow.
+        assert!((largest.exact.unwrap() - smallest.exact.unwrap()).abs() < 1e-3, "{largest:?}");
+        let spread = largest.found.unwrap() - smallest.found.unwrap();
+        assert_eq!(spread > 0.01, physics == Physics::Wrong, "{spread}");
+    }
+}
+
+#[test]
 fn short_scenarios_pass_in_the_recipe() {
     for (scenario, variant, steps) in [
         ("free_flight", "no force", [64, 256, 1024]),

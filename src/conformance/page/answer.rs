@@ -76,7 +76,8 @@ pub(super) const HOW_TO_READ: [&str; 4] = [
      predicted is a property of the configuration; choose another one.",
     "Order: errors over a ladder of steps. The second-order recipe must show order 2 within 0.1 (0.2 where single events scatter) down to \
      the floor of rounding; other configurations the order of their difference equation over the same steps.",
-    "Not run: nobody computed it in this run, or too few errors lie above the floor to show an order. It counts neither as passed nor as failed.",
+    "Not run: nobody computed it in this run, too few errors lie above the floor to show an order, or the motion is chaotic and nothing predicts \
+     the number. It counts neither as passed nor as failed.",
 ];
 
 /// The words about multibody joints.

@@ -2,6 +2,7 @@
 
 use super::answer::{FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, answer};
 use super::charts;
+use super::diagram;
 use super::markdown::{provenance, summary};
 use super::tables::{self, Entry, Grid};
 use crate::conformance::{Changes, ConformanceError, Report, Row, ScenarioNote};
@@ -61,7 +62,11 @@ fn scenario(report: &Report, note: &ScenarioNote) -> Result<Markup, ConformanceE
             variants.push(&row.variant);
         }
     }
-    let parts = variants.iter().map(|variant| part(report, note, variant)).collect::<Result<Vec<_>, _>>()?;
+    let parts = if diagram::shows(&note.id) {
+        vec![amplitude_diagram(report)?]
+    } else {
+        variants.iter().map(|variant| part(report, note, variant)).collect::<Result<Vec<_>, _>>()?
+    };
     Ok(html! {
         h2 id=(note.id) { (note.title) }
         p { (note.description) }
@@ -103,6 +108,17 @@ fn part(report: &Report, note: &ScenarioNote, variant: &str) -> Result<Markup, C
                 (table(&tables::steps_table(&notable)))
             }
         }
+    })
+}
+
+/// Its variants are the values of one parameter: one picture and one table for all of them.
+fn amplitude_diagram(report: &Report) -> Result<Markup, ConformanceError> {
+    let picture =
+        diagram::figure(report).map(|figure| picture(&figure, "Amplitude diagram, engine and exact")).transpose()?;
+    let grid = diagram::table(report);
+    Ok(html! {
+        @if let Some(picture) = picture { p.caption { (diagram::CAPTION) } (picture) }
+        details { summary { (format!("Numbers at single values of ξ₁: {} rows", grid.rows.len())) } (table(&grid)) }
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod answer;
 mod charts;
+mod diagram;
 mod html;
 mod markdown;
 mod tables;

@@ -1,5 +1,6 @@
 //! The scenarios, one file each.
 
+pub(super) mod amplitude_diagram;
 mod chaos;
 mod coupled_oscillators;
 mod energy_ledger;
@@ -19,6 +20,7 @@ mod secondary_hopf;
 mod settled;
 mod torus;
 
+pub use amplitude_diagram::AmplitudeDiagram;
 pub use chaos::Chaos;
 pub use coupled_oscillators::CoupledOscillators;
 pub use energy_ledger::EnergyLedger;
