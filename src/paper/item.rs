@@ -83,6 +83,13 @@ pub struct Number {
     pub value: String,
 }
 
+/// A table for the page, of words: one row under another.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Overview {
+    pub head: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+}
+
 /// What an item found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Findings {
@@ -90,6 +97,8 @@ pub struct Findings {
     pub verdict: String,
     pub checks: Vec<Check>,
     pub numbers: Vec<Number>,
+    /// Shown beneath the verdict.
+    pub overview: Option<Overview>,
     pub figure: Option<Figure>,
     /// Each becomes a CSV file: the first `ID.csv`, further ones `ID-NAME.csv`.
     pub tables: Vec<(String, Table)>,

@@ -2,7 +2,7 @@
 
 use super::check::Check;
 use super::error::PaperError;
-use super::item::{Case, Findings, Number, PARAMETERS, PaperItem, described};
+use super::item::{Case, Findings, Number, Overview, PARAMETERS, PaperItem, described};
 use crate::store::{OutputDir, StoreError, Table, TableFormat, read_whole};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,8 @@ pub struct ItemResult {
     pub verdict: String,
     pub checks: Vec<Check>,
     pub numbers: Vec<Number>,
+    #[serde(default)]
+    pub overview: Option<Overview>,
     /// Width and height of the picture in CSS pixels, where there is one.
     pub picture: Option<(u32, u32)>,
     /// Names in the output directory.
@@ -97,6 +99,7 @@ fn failed(item: &PaperItem, error: &PaperError) -> ItemResult {
         verdict: format!("Failed: {error}."),
         checks: vec![check],
         numbers: Vec::new(),
+        overview: None,
         picture: None,
         files: Vec::new(),
     }
@@ -137,6 +140,7 @@ fn computed(item: &PaperItem, case: &Case, dir: &OutputDir) -> Result<ItemResult
         verdict: findings.verdict,
         checks: findings.checks,
         numbers: findings.numbers,
+        overview: findings.overview,
         picture,
         files,
     };
