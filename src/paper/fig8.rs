@@ -5,7 +5,7 @@
 use super::check::Check;
 use super::error::PaperError;
 use super::exact::settled;
-use super::item::{Case, Findings, Origin, PaperItem, numbers};
+use super::item::{Case, Effort, Findings, Origin, PaperItem, numbers};
 use super::slow::{beside_the_cycle, frequency};
 use crate::averaging::{AveragingError, EnergyFrequency, SlowMotion};
 use crate::dynamics::{DenseFlow, Motion};
@@ -18,8 +18,9 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Paper("Fig. 8"),
     title: "slow amplitudes and their doublings",
     caption: "Slow amplitudes of both masses about their means (grey) and the points at which ã₂ passes 0 upwards (black), slow flow started beside its limit cycle. \
-        (a) the torus is a limit cycle of the slow flow: one point; (b), (c), (d) after its first three period doublings: two, four, eight; (e) beyond the cascade: chaos.",
-    revision: 1,
+        A torus that is a limit cycle of the slow flow leaves one point, doubled once two, and so on; how many there are in each panel, and that (e) repeats after no number of passages, is said below. \
+        Points nearer than 10⁻³ in ã₁ count as one, so the number for a motion that never repeats depends on how long it is watched and has no meaning of its own.",
+    revision: 2,
     compute,
 };
 
@@ -43,13 +44,26 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         XI1.par_iter().map(|&xi1| portrait(case, xi1, &frequency)).collect();
     let portraits = portraits.into_iter().collect::<Result<Vec<_>, _>>()?;
     let counts: Vec<usize> = portraits.iter().map(|p| distinct(&p.section)).collect();
-    let mut findings = Findings { checks: checks(case, &counts), ..Findings::default() };
+    let mut findings = Findings { checks: checks(case, &portraits, &counts), ..Findings::default() };
     for (portrait, count) in portraits.iter().zip(&counts) {
-        let found = format!("{count} points on D of {} passages", portrait.section.len());
+        let (passages, (longest, off)) = (portrait.section.len(), recurrence(&portrait.section));
+        let found = match repeats(&portrait.section) {
+            Some(cycle) => format!("{count} points on D in {passages} passages, repeats after {cycle}"),
+            None => format!(
+                "{count} groups of points on D in {passages} passages; after no number up to {longest} does it repeat nearer than {off:.1e}"
+            ),
+        };
         findings.number(&format!("ξ₁ = {}", portrait.xi1), found);
     }
-    let shown: Vec<String> = counts.iter().map(ToString::to_string).collect();
-    findings.verdict = format!("Points on D: {}.", shown.join(", "));
+    let shown: Vec<String> = portraits
+        .iter()
+        .zip(NAMES)
+        .map(|(p, name)| match (repeats(&p.section), recurrence(&p.section).0) {
+            (Some(cycle), _) => format!("{name} {cycle}"),
+            (None, longest) => format!("{name} more than {longest}"),
+        })
+        .collect();
+    findings.verdict = format!("Passages of D after which the slow amplitudes repeat: {}.", shown.join(", "));
     let rows = || portraits.iter().flat_map(|p| p.section.iter().map(move |point| (p.xi1, point)));
     findings.table(
         "section",
@@ -107,7 +121,23 @@ fn distinct(section: &[(f64, f64)]) -> usize {
     if values.is_empty() { 0 } else { gaps + 1 }
 }
 
-fn checks(case: &Case, counts: &[usize]) -> Vec<Check> {
+/// Largest distance in a1 between passages that lie `cycle` apart.
+fn distance_after(section: &[(f64, f64)], cycle: usize) -> f64 {
+    section.iter().zip(&section[cycle..]).map(|(a, b)| (a.0 - b.0).abs()).fold(0.0, f64::max)
+}
+
+/// The least number of passages, up to half of all, after which the motion repeats.
+fn repeats(section: &[(f64, f64)]) -> Option<usize> {
+    (1..=section.len() / 2).find(|cycle| distance_after(section, *cycle) < TOGETHER)
+}
+
+/// The largest number of passages tried, and the distance of the best repeat.
+fn recurrence(section: &[(f64, f64)]) -> (usize, f64) {
+    let longest = section.len() / 2;
+    (longest, (1..=longest).map(|cycle| distance_after(section, cycle)).fold(f64::INFINITY, f64::min))
+}
+
+fn checks(case: &Case, portraits: &[Portrait], counts: &[usize]) -> Vec<Check> {
     let mut checks: Vec<Check> = counts
         .iter()
         .zip(POINTS)
@@ -117,13 +147,19 @@ fn checks(case: &Case, counts: &[usize]) -> Vec<Check> {
             Check::near(&format!("{name}: points on D"), expected as f64, *found as f64, 0.0, reason)
         })
         .collect();
-    if let Some(last) = counts.get(POINTS.len()) {
-        checks.push(Check::at_least(
-            "(e): points on D",
-            17.0,
-            *last as f64,
-            "more than a cycle of the fourth doubling has: no cycle that the cascade passed",
-        ));
+    for ((portrait, expected), name) in portraits.iter().zip(POINTS).zip(NAMES) {
+        let found = repeats(&portrait.section).map_or(f64::NAN, |cycle| cycle as f64);
+        let reason = "a cycle of period 2ⁿ is the same after 2ⁿ passages and not before";
+        checks.push(Check::near(&format!("{name}: repeats after"), expected as f64, found, 0.0, reason));
+    }
+    if let Some(last) = portraits.get(POINTS.len()) {
+        let (longest, off) = recurrence(&last.section);
+        let reason = "the repeats of (a) to (d) are found by the same measure; half of the passages can be held against later ones";
+        checks.push(Check::at_least("(e): nearest repeat after any number of passages", TOGETHER, off, reason));
+        let reason = "more than the 32 of a cycle of the fifth doubling, the last that is known (Table 1)";
+        let tried = Check::at_least("(e): numbers of passages tried", 33.0, longest as f64, reason);
+        // A quick motion is too short for that.
+        checks.push(if case.effort == Effort::Full { tried } else { Check { passed: None, ..tried } });
     }
     checks.into_iter().map(|check| case.nominal_only(check)).collect()
 }

@@ -84,6 +84,12 @@ fn section(item: &PaperItem, result: &ItemResult, dir: &OutputDir) -> Result<Mar
             @if let Some(picture) = picture { (picture) }
             p.caption { (item.caption) }
             p class=(class) { (result.verdict) }
+            @if let Some(overview) = &result.overview {
+                div.scroll { table {
+                    thead { tr { @for title in &overview.head { th { (title) } } } }
+                    tbody { @for row in &overview.rows { tr { @for cell in row { td { (cell) } } } } }
+                } }
+            }
             @if !result.numbers.is_empty() {
                 div.scroll { table {
                     tbody { @for number in &result.numbers { tr { td { (number.name) } td { (number.value) } } } }

@@ -83,6 +83,13 @@ pub struct Number {
     pub value: String,
 }
 
+/// A table for the page, of words: one row under another.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Overview {
+    pub head: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+}
+
 /// What an item found.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Findings {
@@ -90,6 +97,8 @@ pub struct Findings {
     pub verdict: String,
     pub checks: Vec<Check>,
     pub numbers: Vec<Number>,
+    /// Shown beneath the verdict.
+    pub overview: Option<Overview>,
     pub figure: Option<Figure>,
     /// Each becomes a CSV file: the first `ID.csv`, further ones `ID-NAME.csv`.
     pub tables: Vec<(String, Table)>,
@@ -103,6 +112,20 @@ impl Findings {
     pub fn table(&mut self, name: &str, table: Table) {
         self.tables.push((name.to_owned(), table));
     }
+
+    /// A table made with other parameters than the run's; its header names them instead. `xi1` is no part of it.
+    pub fn table_at(&mut self, name: &str, parameters: RigParameters, mut table: Table) {
+        table.metadata.push((PARAMETERS.to_owned(), described(parameters)));
+        self.table(name, table);
+    }
+}
+
+/// Key of the parameters in the header of a table.
+pub(super) const PARAMETERS: &str = "parameters";
+
+/// The parameters other than xi1, for the header of a table.
+pub(super) fn described(RigParameters { xi2, kappa, gamma, .. }: RigParameters) -> String {
+    format!("xi2 = {xi2}, kappa = {kappa}, gamma = {gamma}")
 }
 
 /// A table of non-dimensional numbers; values that are not finite are left out.

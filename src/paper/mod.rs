@@ -34,7 +34,7 @@ mod table1;
 pub use check::{Check, Value};
 pub use error::PaperError;
 pub use index::write_index;
-pub use item::{Case, Effort, Findings, Number, Origin, PaperItem, numbers, with_words};
+pub use item::{Case, Effort, Findings, Number, Origin, Overview, PaperItem, numbers, with_words};
 pub use run::{ItemResult, News, run, stored};
 
 /// All items in the order of the page.

@@ -4,7 +4,8 @@ use super::error::PaperError;
 use super::exact::{settled, values};
 use super::item::Case;
 use crate::averaging::{
-    AveragingError, EnergyDefinition, EnergyFrequency, Interpolation, RestoredSlowFlow, SlowFlow, SlowHopf, hopf_points,
+    AveragingError, EnergyDefinition, EnergyFrequency, Interpolation, PerturbedLimitCycle, RestoredSlowFlow, SlowFlow,
+    SlowHopf, fixed_point, hopf_points,
 };
 use crate::chaos::{DiagramPlan, DiagramRow, amplitude_diagram};
 use crate::dynamics::State;
@@ -56,4 +57,24 @@ pub(super) fn diagram(case: &Case, end: f64, count: usize) -> Result<Vec<Diagram
 pub(super) fn first_hopf(flow: &SlowFlow) -> Result<SlowHopf, PaperError> {
     let found = hopf_points(flow)?.into_iter().find(|point| !point.beyond_fold);
     found.ok_or_else(|| PaperError::missing("secondary Hopf point of the slow flow", flow.parameters()))
+}
+
+/// Observed orders of the errors of (29) and of the real part of (30) against the slow flow's own eigenvalues, when the small parameter
+/// e of the expansion, `kappa ~ e`, `xi1, xi2 ~ e^2`, is halved from 1/64 to 1/128; e = 1 is the nominal set with xi1 = -0.06.
+pub(super) fn orders_of_29_and_30() -> Result<[f64; 2], PaperError> {
+    let [coarse, fine] = [1.0 / 64.0, 1.0 / 128.0].map(errors_of_29_and_30);
+    let (coarse, fine) = (coarse?, fine?);
+    Ok(std::array::from_fn(|i| (coarse[i] / fine[i]).abs().log2()))
+}
+
+fn errors_of_29_and_30(e: f64) -> Result<[f64; 2], PaperError> {
+    let nominal = RigParameters::default();
+    let parameters =
+        RigParameters { xi1: -0.06 * e * e, xi2: nominal.xi2 * e * e, kappa: nominal.kappa * e, ..nominal };
+    let none = || PaperError::missing("limit cycle to expand around", parameters);
+    let expansion = PerturbedLimitCycle::of(&parameters).ok_or_else(none)?;
+    let eigenvalues = fixed_point(&SlowFlow::new(parameters, frequency(parameters)?)?)?.eigenvalues();
+    let real = eigenvalues.iter().min_by(|a, b| a.im.abs().total_cmp(&b.im.abs())).ok_or_else(none)?;
+    let pair = eigenvalues.iter().max_by(|a, b| a.im.total_cmp(&b.im)).ok_or_else(none)?;
+    Ok([real.re - expansion.first_eigenvalue, pair.re - expansion.pair_eigenvalue.re])
 }
