@@ -34,7 +34,7 @@ mod torus;
 mod torus_branch;
 
 pub use describing::DescribingFunction;
-pub use doublings::{PeriodDoubling, period_doublings};
+pub use doublings::{DoublingCascade, PeriodDoubling, doubling_cascade, period_doublings};
 pub use energy::EnergyDefinition;
 pub use energy_frequency::{EnergyFrequency, Interpolation, LARGEST_ENERGY, NodeSpacing};
 pub use error::AveragingError;

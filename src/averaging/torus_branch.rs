@@ -120,6 +120,12 @@ impl TorusBranch {
         Ok(())
     }
 
+    /// Whether the rate at the start turned round in the step from `before`: the start then passed a fixed point, to which the cycle
+    /// shrank, and lies on the far side of it. On a cycle of finite size a step turns the rate by a small angle only.
+    pub(super) fn reversed_since(&self, before: &Self) -> bool {
+        self.anchor.1.dot(&before.anchor.1) < 0.0
+    }
+
     fn lost(&self, reason: &str) -> AveragingError {
         AveragingError::TorusLost { xi1: self.u[4], period: self.u[3], reason: reason.to_owned() }
     }

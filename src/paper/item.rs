@@ -103,6 +103,20 @@ impl Findings {
     pub fn table(&mut self, name: &str, table: Table) {
         self.tables.push((name.to_owned(), table));
     }
+
+    /// A table made with other parameters than the run's; its header names them instead. `xi1` is no part of it.
+    pub fn table_at(&mut self, name: &str, parameters: RigParameters, mut table: Table) {
+        table.metadata.push((PARAMETERS.to_owned(), described(parameters)));
+        self.table(name, table);
+    }
+}
+
+/// Key of the parameters in the header of a table.
+pub(super) const PARAMETERS: &str = "parameters";
+
+/// The parameters other than xi1, for the header of a table.
+pub(super) fn described(RigParameters { xi2, kappa, gamma, .. }: RigParameters) -> String {
+    format!("xi2 = {xi2}, kappa = {kappa}, gamma = {gamma}")
 }
 
 /// A table of non-dimensional numbers; values that are not finite are left out.

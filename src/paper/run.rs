@@ -2,8 +2,7 @@
 
 use super::check::Check;
 use super::error::PaperError;
-use super::item::{Case, Findings, Number, PaperItem};
-use crate::model::RigParameters;
+use super::item::{Case, Findings, Number, PARAMETERS, PaperItem, described};
 use crate::store::{OutputDir, StoreError, Table, TableFormat, read_whole};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -37,7 +36,8 @@ pub struct News<'a> {
 /// Computes the items that `dir` does not hold yet and writes their files; results come in the order of `items`.
 ///
 /// # Errors
-/// The first error in that order: [`PaperError::Item`], or [`PaperError::Store`]. Items that succeeded are kept all the same.
+/// The first [`PaperError::Store`] in that order. An item that cannot be computed is a result that has not passed and says why; it is
+/// not kept, and neither it nor an error of the store keeps others from being computed.
 pub fn run(
     items: &[&PaperItem],
     case: &Case,
@@ -52,7 +52,7 @@ pub fn run(
         .map(|item| {
             let (result, reused) = match stored(item, dir) {
                 Some(result) => (result, true),
-                None => (computed(item, case, dir)?, false),
+                None => (attempted(item, case, dir)?, false),
             };
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress(News { result: &result, reused, done, all: items.len() });
@@ -78,6 +78,28 @@ pub fn stored(item: &PaperItem, dir: &OutputDir) -> Option<ItemResult> {
     dir.trusted(&name, &key)?;
     let result: ItemResult = serde_json::from_slice(&read_whole(&dir.path().join(name)).ok()?).ok()?;
     result.files.iter().all(|file| dir.trusted(file, &key).is_some()).then_some(result)
+}
+
+fn attempted(item: &PaperItem, case: &Case, dir: &OutputDir) -> Result<ItemResult, PaperError> {
+    match computed(item, case, dir) {
+        Err(PaperError::Store(error)) => Err(error.into()),
+        Err(error) => Ok(failed(item, &error)),
+        done => done,
+    }
+}
+
+/// What stands for an item that could not be computed.
+fn failed(item: &PaperItem, error: &PaperError) -> ItemResult {
+    let check = Check::holds("computed", "a result", error.to_string(), false, "without a result nothing is checked");
+    ItemResult {
+        id: item.id.to_owned(),
+        passed: false,
+        verdict: format!("Failed: {error}."),
+        checks: vec![check],
+        numbers: Vec::new(),
+        picture: None,
+        files: Vec::new(),
+    }
 }
 
 fn computed(item: &PaperItem, case: &Case, dir: &OutputDir) -> Result<ItemResult, PaperError> {
@@ -122,16 +144,17 @@ fn computed(item: &PaperItem, case: &Case, dir: &OutputDir) -> Result<ItemResult
     Ok(result)
 }
 
-/// The table with what decided it in its header.
+/// The table with what decided it in its header; parameters of its own go before those of the run.
 fn labelled(table: Table, item: &PaperItem, name: &str, case: &Case) -> Table {
-    let RigParameters { xi2, kappa, gamma, .. } = case.parameters;
     let mut metadata = vec![
         ("stickslip".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
         ("item".to_owned(), item.id.to_owned()),
         ("content".to_owned(), name.to_owned()),
-        ("parameters".to_owned(), format!("xi2 = {xi2}, kappa = {kappa}, gamma = {gamma}")),
         ("units".to_owned(), "non-dimensional: time 1/omega0, length R/kt, force R".to_owned()),
     ];
+    if !table.metadata.iter().any(|(key, _)| key == PARAMETERS) {
+        metadata.push((PARAMETERS.to_owned(), described(case.parameters)));
+    }
     metadata.extend(table.metadata);
     Table { metadata, ..table }
 }

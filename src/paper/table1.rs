@@ -4,7 +4,7 @@ use super::check::Check;
 use super::error::PaperError;
 use super::item::{Case, Findings, Origin, PaperItem, numbers, with_words};
 use super::slow::first_hopf;
-use crate::averaging::{EnergyDefinition, EnergyFrequency, Interpolation, NodeSpacing, SlowFlow, period_doublings};
+use crate::averaging::{EnergyDefinition, EnergyFrequency, Interpolation, NodeSpacing, SlowFlow, doubling_cascade};
 use crate::report::{Figure, Panel, Series, Style, Tint};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -31,6 +31,8 @@ struct Row {
     interpolation: Interpolation,
     hopf: f64,
     doublings: Vec<f64>,
+    /// Why there are fewer than wanted.
+    ended: Option<String>,
 }
 
 fn compute(case: &Case) -> Result<Findings, PaperError> {
@@ -49,7 +51,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         .map(|(definition, interpolation)| row(case, definition, interpolation, count))
         .collect();
     let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let mut findings = Findings { checks: checks(case, &rows), ..Findings::default() };
+    let mut findings = Findings { checks: checks(case, &rows, count), ..Findings::default() };
     for definition in definitions {
         describe(&mut findings, &rows, definition);
     }
@@ -68,8 +70,10 @@ fn row(
     let frequency = EnergyFrequency::new(case.parameters, definition, interpolation)?;
     let flow = SlowFlow::new(case.parameters, Arc::new(frequency))?;
     let hopf = first_hopf(&flow)?;
-    let doublings = period_doublings(&flow, &hopf, count)?.iter().map(|doubling| doubling.torus.xi1).collect();
-    Ok(Row { definition, interpolation, hopf: hopf.point.xi1, doublings })
+    let cascade = doubling_cascade(&flow, &hopf, count);
+    let doublings = cascade.doublings.iter().map(|doubling| doubling.torus.xi1).collect();
+    let ended = cascade.ended.map(|error| error.to_string());
+    Ok(Row { definition, interpolation, hopf: hopf.point.xi1, doublings, ended })
 }
 
 fn converged(rows: &[Row], definition: EnergyDefinition) -> Option<&Row> {
@@ -90,8 +94,14 @@ fn name(definition: EnergyDefinition) -> &'static str {
     }
 }
 
-fn checks(case: &Case, rows: &[Row]) -> Vec<Check> {
-    let mut checks = Vec::new();
+fn checks(case: &Case, rows: &[Row], count: usize) -> Vec<Check> {
+    let fewest = rows.iter().map(|row| row.doublings.len()).min().unwrap_or(0);
+    let mut checks = vec![Check::at_least(
+        "doublings found with each definition and frequency",
+        count as f64,
+        fewest as f64,
+        "the paper finds five; without them nothing below would be checked",
+    )];
     let expected = [
         (EnergyDefinition::MeanPotential, MEAN_POTENTIAL, -0.035_002_1, 1.6e-3),
         (EnergyDefinition::EquivalentStiffness, EQUIVALENT_STIFFNESS, -0.034_834_4, 7e-4),
@@ -137,6 +147,12 @@ fn words(values: &[f64], digits: usize) -> String {
 fn describe(findings: &mut Findings, rows: &[Row], definition: EnergyDefinition) {
     let Some(found) = converged(rows, definition) else { return };
     let name = name(definition);
+    if let Some(ended) = &found.ended {
+        findings.number(&format!("{name}: the cascade ends after {}", found.doublings.len()), ended);
+    }
+    if found.doublings.is_empty() {
+        return;
+    }
     findings.number(&format!("{name}: doublings"), words(&found.doublings, 7));
     findings.number(&format!("{name}: ratios"), words(&ratios(&found.doublings), 4));
     let distances: Vec<f64> = found.doublings.iter().zip(PRINTED).map(|(a, b)| 1e3 * (a - b)).collect();
@@ -161,6 +177,8 @@ fn verdict(case: &Case, rows: &[Row]) -> String {
         format!(
             "The cascade is there, the printed digits are not met: off by up to {mean:.1e} (mean potential) and {stiffness:.1e} (equivalent stiffness)."
         )
+    } else if rows.iter().all(|row| row.doublings.is_empty()) {
+        "The torus of these parameters never doubles.".to_owned()
     } else {
         "The cascade of these parameters; the paper has none to compare with.".to_owned()
     }

@@ -79,6 +79,21 @@ fn expectations_of_the_nominal_rig_do_not_apply_to_another() {
     assert_eq!(json["items"][0]["passed"], true);
 }
 
+/// At gamma = 0.7 the torus shrinks back to the limit cycle and never doubles: Table 1 says so, and the page is written.
+#[test]
+fn parameters_without_doublings_have_a_page_that_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let json = document(&["paper", "--quick", "--only", "fig2,table1", "--gamma", "0.7", "-o", path, "--json"]);
+    let items = json["items"].as_array().unwrap();
+    assert!(items.iter().all(|item| item["passed"] == true), "{items:?}");
+    assert!(items[1]["verdict"].as_str().unwrap().contains("never doubles"), "{}", items[1]["verdict"]);
+    let ends: Vec<&str> = items[1]["numbers"].as_array().unwrap().iter().filter_map(|n| n["value"].as_str()).collect();
+    assert!(ends.iter().any(|value| value.contains("shrinks back to a fixed point")), "{ends:?}");
+    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(page.contains("never doubles") && page.contains("not the paper's nominal set"));
+}
+
 fn compute_nothing(case: &Case) -> Result<Findings, PaperError> {
     let fold = case.nominal_only(Check::near("fold", -0.2, -0.215_051_734, 1e-3, "deliberately wrong"));
     Ok(Findings { verdict: "wrong".to_owned(), checks: vec![fold], ..Findings::default() })
@@ -93,6 +108,27 @@ const WRONG: PaperItem = PaperItem {
     revision: 1,
     compute: compute_nothing,
 };
+
+fn cannot_compute(case: &Case) -> Result<Findings, PaperError> {
+    Err(PaperError::missing("unicorn", case.parameters))
+}
+
+/// An item that fails for the nominal parameters.
+const FAILING: PaperItem = PaperItem { id: "failing", compute: cannot_compute, ..WRONG };
+
+#[test]
+fn an_item_that_cannot_be_computed_is_a_failed_entry_and_is_tried_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case { parameters: RigParameters::default(), effort: Effort::Quick };
+    let dir = OutputDir::open(folder.path(), &Origin::new("paper", serde_json::json!({})), Existing::Resume).unwrap();
+    let results = run(&[&FAILING, &WRONG], &case, &dir, |_| {}).unwrap();
+    assert!(!results[0].passed && results[0].verdict.contains("unicorn"));
+    assert_eq!(results[1].verdict, "wrong", "the others are computed");
+    write_index(&[(&FAILING, results[0].clone())], &case, &dir).unwrap();
+    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(page.contains("unicorn") && page.contains("✗ failed"));
+    assert!(stickslip::paper::stored(&FAILING, &dir).is_none());
+}
 
 fn passes(parameters: RigParameters, folder: &Path) -> bool {
     let case = Case { parameters, effort: Effort::Quick };
