@@ -17,7 +17,7 @@ pub(super) const ITEM: PaperItem = PaperItem {
     title: "limit cycles that regain stability",
     caption: "Amplitude diagrams for (a) κ = 0.074, (b) κ = 0.21, (c) γ = 0.7, the other parameters as above. Lines: limit cycles, stable (solid) and unstable (dashed). Dots: largest and smallest maximum of the steady motion started beside the limit cycle. \
         Circles: both secondary Hopf points from Floquet multipliers; crosses: equation (31), put on the branch; what lies outside a panel is among the numbers. Between the points the motion is a torus; beyond the second the limit cycle attracts again. \
-        Shaded: the motion diverges within 6500 time units; each panel ends a little beyond. Steady motions are watched for 8000 time units after they have settled.",
+        Each motion is watched for 8000 time units after it has settled; shaded: it diverges before that is over. Each panel ends a little beyond the first divergence.",
     revision: 3,
     compute,
 };
