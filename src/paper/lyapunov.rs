@@ -52,6 +52,11 @@ fn sign(s: &LyapunovSpectrum) -> Sign {
     }
 }
 
+/// Beyond doubt.
+pub(super) fn positive(s: &LyapunovSpectrum) -> bool {
+    sign(s) == Sign::Positive
+}
+
 /// Neither chaos nor, with l3 < 0, a torus or a cycle.
 fn undecided(s: &LyapunovSpectrum) -> bool {
     s.exponents.iter().zip(&s.standard_errors).take(3).all(|(l, error)| l.abs() <= ZERO.max(2.0 * error))
@@ -79,7 +84,6 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     if rows.is_empty() {
         return Err(PaperError::missing("bounded motion beside the limit cycle", case.parameters));
     }
-    let positive = |s: &LyapunovSpectrum| sign(s) == Sign::Positive;
     let mut findings = Findings { checks: checks(case, &rows)?, ..Findings::default() };
     let changes: Vec<String> = rows
         .windows(2)
