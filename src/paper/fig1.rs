@@ -15,9 +15,9 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Paper("Fig. 1"),
     title: "amplitude over damping",
     caption: "Amplitude of mass 1 over the damping ξ₁ of the self-excited mode. Lines: limit cycles, stable (solid) and unstable (dashed), up to the fold and back. \
-        Dots: largest and smallest maximum of the steady motion started beside the limit cycle. A: at rest; B: limit cycle; C: torus, then chaos; D: divergence, beyond which \
-        nothing bounded was found from these starts, and the fold, beyond which there is no limit cycle. Where the paper sketches, everything here is computed.",
-    revision: 2,
+        Dots: largest and smallest maximum of the steady motion started beside the limit cycle. A: at rest; B: limit cycle; C: torus, then chaos; D: divergence, beyond whose edge \
+        nothing bounded was found from these starts. Beyond the fold there is no limit cycle. Each motion is watched for 8000 time units after it has settled. Where the paper sketches, everything here is computed.",
+    revision: 3,
     compute,
 };
 
@@ -74,12 +74,19 @@ fn figure(branch: &Branch, rows: &[DiagramRow], end: f64) -> Figure {
         .x_range(end, -0.08 * end)
         .y_range(-0.25, AMPLITUDE);
     if let Some(edge) = divergence_edge(rows) {
-        panel = panel.with(diverging(edge.first_diverged));
+        let middle = 0.5 * (edge.first_diverged + end);
+        panel = panel.with(diverging(edge.first_diverged)).text((middle, 0.5), "D", Side::Centre);
     }
-    panel = steady_series(rows).into_iter().fold(panel, Panel::series);
+    // Dots last, so that stable cycles met by motions are seen on their line.
     panel = branch_series(branch).into_iter().fold(panel, Panel::series);
-    let rest = vec![(0.0, 0.0), (-0.08 * end, 0.0)];
-    panel = panel.series(Series::new("at rest, stable for ξ₁ > 0", rest, Style::Line, Tint::Purple));
+    panel = steady_series(rows).into_iter().fold(panel, Panel::series);
+    let (stable, unstable) = (vec![(0.0, 0.0), (-0.08 * end, 0.0)], vec![(end, 0.0), (0.0, 0.0)]);
+    panel = panel.series(Series::new("at rest, stable", stable, Style::Line, Tint::Purple)).series(Series::new(
+        "at rest, unstable",
+        unstable,
+        Style::Dashed,
+        Tint::Purple,
+    ));
     // Letters stand beside computed points: the middle of each range of the steady motion, and the fold.
     let upper = |class| {
         let of: Vec<_> = rows.iter().filter(|row| row.outcome == class).collect();
@@ -96,14 +103,14 @@ fn figure(branch: &Branch, rows: &[DiagramRow], end: f64) -> Figure {
     }
     if let Some(fold) = fold(branch) {
         let at = (fold.parameters.xi1, fold.orbit.amplitude());
-        panel = panel.series(Series::new("fold", vec![at], Style::Markers, Tint::Orange)).text(at, "D", Side::Right);
+        panel = panel.series(Series::new("fold", vec![at], Style::Markers, Tint::Orange));
     }
     Figure::single(panel)
 }
 
 /// Values of xi1 at which motions beside the limit cycle diverge.
 pub(super) fn diverging(from: f64) -> Mark {
-    Mark::BandX { label: "diverges".to_owned(), from: None, to: Some(from), tint: Tint::LightGrey }
+    Mark::BandX { label: "exact motion diverges".to_owned(), from: None, to: Some(from), tint: Tint::LightGrey }
 }
 
 /// Stable and unstable parts; each goes on to the first point of the next, so that the line has no gap.

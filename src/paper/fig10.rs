@@ -2,21 +2,23 @@
 
 use super::check::Check;
 use super::error::PaperError;
-use super::exact::{branch, diagram, fold, secondary_hopf, values};
-use super::fig1::{branch_series, diverging, steady_series, steady_table};
-use super::item::{Case, Findings, Origin, PaperItem};
+use super::exact::{branch, diagram, divergence, fold, secondary_hopf, values};
+use super::fig1::{branch_series, branch_table, diverging, steady_series, steady_table};
+use super::item::{Case, Findings, Origin, PARAMETERS, PaperItem, numbers, with_words};
 use crate::chaos::{DiagramRow, MotionClass, divergence_edge};
 use crate::model::{RigParameter, RigParameters};
 use crate::orbit::Branch;
 use crate::report::{Figure, Panel, Series, Style, Tint};
+use crate::store::Table;
 
 pub(super) const ITEM: PaperItem = PaperItem {
     id: "fig10",
     origin: Origin::Paper("Fig. 10"),
     title: "limit cycles that regain stability",
     caption: "Amplitude diagrams for (a) κ = 0.074, (b) κ = 0.21, (c) γ = 0.7, the other parameters as above. Lines: limit cycles, stable (solid) and unstable (dashed). Dots: largest and smallest maximum of the steady motion started beside the limit cycle. \
-        Circles: both secondary Hopf points from Floquet multipliers; crosses: equation (31). Between the points the motion is a torus; beyond the second the limit cycle attracts again, in (b) up to its fold. The second point of equation (31) lies outside (b), at −1.53.",
-    revision: 2,
+        Circles: both secondary Hopf points from Floquet multipliers; crosses: equation (31), put on the branch; what lies outside a panel is among the numbers. Between the points the motion is a torus; beyond the second the limit cycle attracts again. \
+        Each motion is watched for 8000 time units after it has settled; shaded: it diverges before that is over. Each panel ends a little beyond the first divergence.",
+    revision: 3,
     compute,
 };
 
@@ -26,32 +28,82 @@ const SETS: [(RigParameter, f64, &str); 3] = [
     (RigParameter::Gamma, 0.7, "(c) γ = 0.7"),
 ];
 const AMPLITUDE: f64 = 4.0;
+/// Largest self-excitation at which divergence is looked for.
+const LOWEST: f64 = -0.5;
+/// How far the panels go, relative to the first divergence.
+const BEYOND: f64 = 1.05;
+
+/// Secondary Hopf points of a set by either method, with the amplitude where there is one.
+struct Points {
+    parameters: RigParameters,
+    method: &'static str,
+    points: Vec<(f64, f64)>,
+}
 
 fn compute(case: &Case) -> Result<Findings, PaperError> {
     let mut findings = Findings::default();
-    let mut panels = Vec::new();
-    let mut words = Vec::new();
+    let (mut panels, mut words) = (Vec::new(), Vec::new());
+    let (mut points, mut tables) = (Vec::new(), Vec::new());
     for (parameter, value, name) in SETS {
         let parameters = case.parameters.with(parameter, value).validated()?;
         let branch = branch(parameters, AMPLITUDE)?;
         let hopf: Vec<_> = secondary_hopf(&branch).iter().map(|p| (p.parameters.xi1, p.orbit.amplitude())).collect();
-        let end = 1.5 * hopf.last().map_or(-0.1, |point| point.0);
-        let count = case.choose(201, 31);
+        let diverged = divergence(parameters, case.choose(0.0025, 0.01), LOWEST)?;
+        let end = diverged.map_or(1.5 * hopf.last().map_or(-0.1, |point| point.0), |xi1| BEYOND * xi1);
+        let count = case.choose(201, 41);
         let rows = diagram(case, parameters, &values(end / (count - 1) as f64, end, count))?;
-        let fold = fold(&branch).map_or(f64::NEG_INFINITY, |fold| fold.parameters.xi1);
-        findings.checks.extend(checks(case, name, &hopf, &rows, fold));
-        let shown: Vec<_> = hopf.iter().map(|point| format!("{:.9}", point.0)).collect();
-        findings.number(&format!("{name}: secondary Hopf points, exact"), shown.join(", "));
-        let analytic = parameters.analytic_hopf();
-        let shown = analytic.map_or("none".to_owned(), |hopf| format!("{:.6}, {:.6}", hopf.start, hopf.end));
-        findings.number(&format!("{name}: equation (31)"), shown);
+        let fold = fold(&branch).map(|fold| (fold.parameters.xi1, fold.orbit.amplitude()));
+        findings.checks.extend(checks(case, name, &hopf, &rows, fold.map_or(f64::NEG_INFINITY, |fold| fold.0)));
+        describe(&mut findings, name, parameters, &hopf, fold, &rows);
         words.push(format!("{name}: {}", hopf.len()));
-        findings.table(&name[4..].replace(' ', "").replace('κ', "kappa").replace('γ', "gamma"), steady_table(&rows));
+        let set = format!("{}{value}", parameter.name());
+        tables.push((set.clone(), parameters, steady_table(&rows)));
+        tables.push((format!("{set}-branch"), parameters, branch_table(&branch)));
         panels.push(panel(name, parameters, &branch, &rows, &hopf, end));
+        points.push(Points { parameters, method: "exact", points: hopf });
+        let analytic = parameters.analytic_hopf().map(|hopf| [hopf.start, hopf.end]);
+        let analytic = analytic.into_iter().flatten().map(|xi1| (xi1, f64::NAN)).collect();
+        points.push(Points { parameters, method: "equation_31", points: analytic });
     }
+    findings.table("secondary Hopf points", hopf_table(&points));
+    tables.into_iter().for_each(|(name, parameters, table)| findings.table_at(&name, parameters, table));
     findings.verdict = format!("Secondary Hopf points before the fold: {}.", words.join("; "));
     findings.figure = Some(Figure::grid(3, (1260, 560), panels));
     Ok(findings)
+}
+
+fn describe(
+    findings: &mut Findings,
+    name: &str,
+    parameters: RigParameters,
+    hopf: &[(f64, f64)],
+    fold: Option<(f64, f64)>,
+    rows: &[DiagramRow],
+) {
+    let shown: Vec<_> = hopf.iter().map(|point| format!("{:.9}", point.0)).collect();
+    findings.number(&format!("{name}: secondary Hopf points, exact"), shown.join(", "));
+    let analytic = parameters.analytic_hopf();
+    let shown = analytic.map_or("none".to_owned(), |hopf| format!("{:.6}, {:.6}", hopf.start, hopf.end));
+    findings.number(&format!("{name}: equation (31)"), shown);
+    let shown = fold.map_or("none".to_owned(), |(xi1, a1)| format!("ξ₁ = {xi1:.6}, a₁ = {a1:.4}"));
+    findings.number(&format!("{name}: first fold up to a₁ = {AMPLITUDE}"), shown);
+    let edge = divergence_edge(rows);
+    let shown = edge.map_or("none".to_owned(), |edge| format!("ξ₁ = {:.4}", edge.first_diverged));
+    findings.number(&format!("{name}: first divergence in the rows"), shown);
+}
+
+fn hopf_table(points: &[Points]) -> Table {
+    let all = || points.iter().flat_map(|set| set.points.iter().map(move |point| (set, *point)));
+    let parameter = |value: fn(RigParameters) -> f64| all().map(|(set, _)| value(set.parameters)).collect();
+    let mut table = numbers(vec![
+        ("xi2", parameter(|p| p.xi2)),
+        ("kappa", parameter(|p| p.kappa)),
+        ("gamma", parameter(|p| p.gamma)),
+        ("xi1", all().map(|(_, point)| point.0).collect()),
+        ("a1", all().map(|(_, point)| point.1).collect()),
+    ]);
+    table.metadata.push((PARAMETERS.to_owned(), "as in the columns".to_owned()));
+    with_words(table, "method", all().map(|(set, _)| set.method.to_owned()).collect())
 }
 
 fn checks(case: &Case, name: &str, hopf: &[(f64, f64)], rows: &[DiagramRow], fold: f64) -> Vec<Check> {
@@ -106,8 +158,9 @@ fn panel(
     if let Some(edge) = divergence_edge(rows) {
         panel = panel.with(diverging(edge.first_diverged));
     }
-    panel = steady_series(rows).into_iter().fold(panel, Panel::series);
+    // Dots last, so that stable cycles met by motions are seen on their line.
     panel = branch_series(branch).into_iter().fold(panel, Panel::series);
+    panel = steady_series(rows).into_iter().fold(panel, Panel::series);
     // Equation (31) has no amplitude: its points are put on the branch.
     let on_branch = |xi1: f64| {
         branch.points.windows(2).find_map(|pair| {

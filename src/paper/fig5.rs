@@ -19,9 +19,9 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Paper("Fig. 5"),
     title: "amplitude diagram",
     caption: "Largest and smallest maximum of |x₁| in the steady motion over ξ₁, for motions of the exact system started on the limit cycle with x₂ moved by 0.001, coloured by the kind of motion. \
-        Small black dots: the same from the slow flow, started beside its own limit cycle. The line is the exact limit cycle, the circle its secondary Hopf point from Floquet multipliers, the cross that of the slow flow from eigenvalues. Kinks of the upper edge at ξ₁ = −0.131 and −0.145 are doublings of the torus. \
-        Shaded: motions that diverge. Each motion is watched for 8000 time units after it has settled.",
-    revision: 3,
+        Small black dots: the same from the slow flow, started beside its own limit cycle. The line is the exact limit cycle, the circle its secondary Hopf point from Floquet multipliers, the cross that of the slow flow from eigenvalues. Kinks of the upper edge are doublings of the torus. \
+        Shaded: exact motions diverge; dotted: the first slow flow that does. Each exact motion is watched for 8000 time units after it has settled, each slow flow for 3500.",
+    revision: 4,
     compute,
 };
 
@@ -52,12 +52,14 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         let last = edge.last_bounded.map_or("none".to_owned(), |xi1| format!("{xi1:.5}"));
         findings.number("first divergence", format!("ξ₁ = {:.5} (last bounded motion: {last})", edge.first_diverged));
     }
-    let shown = |value: Option<f64>| value.map_or("no value".to_owned(), |xi1| format!("{xi1:.5}"));
+    // Chaos and divergence are known to the spacing of the rows only.
+    let about = |value: Option<f64>| value.map_or("no value".to_owned(), |xi1| format!("about {xi1:.3}"));
     findings.verdict = format!(
-        "Exact: torus from ξ₁ = {}, chaos from {}, divergence from {}.",
-        shown(hopf.map(|at| at.0)),
-        shown(first(&rows, MotionClass::Chaos)),
-        shown(edge.map(|edge| edge.first_diverged))
+        "Exact: torus from ξ₁ = {}, chaos from {}, divergence from {} (rows {:.4} apart).",
+        hopf.map_or("no value".to_owned(), |at| format!("{:.5}", at.0)),
+        about(first(&rows, MotionClass::Chaos)),
+        about(edge.map(|edge| edge.first_diverged)),
+        end.abs() / (count - 1) as f64
     );
     findings.figure = Some(figure(&branch, &rows, hopf, &slow, end));
     findings.table("exact", steady_table(&rows));
@@ -78,7 +80,7 @@ fn first_split(rows: &[DiagramRow]) -> Option<f64> {
 fn checks(case: &Case, rows: &[DiagramRow], hopf: Option<f64>, spacing: f64) -> Vec<Check> {
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let edge = divergence_edge(rows).map(|edge| edge.first_diverged);
-    let mut checks = vec![
+    vec![
         case.nominal_only(Check::near(
             "secondary Hopf of the exact limit cycle",
             -0.034_575_371,
@@ -100,17 +102,30 @@ fn checks(case: &Case, rows: &[DiagramRow], hopf: Option<f64>, spacing: f64) -> 
             0.005_f64.max(spacing),
             "the paper's footnote 2, “≈ −0.15”: half a unit of its last digit; or the spacing of the rows if wider",
         )),
-    ];
-    if let Some(hopf) = hopf.filter(|_| first_split(rows).is_some()) {
-        checks.push(Check::near(
-            "first row with two amplitudes",
+        split_check(case, rows, hopf, spacing),
+    ]
+}
+
+/// The diagram must split where the multipliers say so; it cannot where motions diverge before, or the point lies beyond the rows.
+fn split_check(case: &Case, rows: &[DiagramRow], hopf: Option<f64>, spacing: f64) -> Check {
+    let name = "first row with two amplitudes";
+    let last = rows.iter().take_while(|row| row.a1_max.is_some()).last().map_or(f64::INFINITY, |row| row.value);
+    match hopf {
+        Some(hopf) if last < hopf - 3.0 * spacing => Check::near(
+            name,
             hopf,
-            number(first_split(rows)),
+            first_split(rows).unwrap_or(f64::NAN),
             3.0 * spacing,
             "the torus grows as the square root of the distance, past 1 % of the amplitude within a row; growth next to the point is slow, so up to three rows",
-        ));
+        ),
+        _ => case.nominal_only(Check::holds(
+            name,
+            "beside the secondary Hopf point",
+            "no secondary Hopf point among bounded motions",
+            false,
+            "the limit cycle loses stability to a torus",
+        )),
     }
-    checks
 }
 
 /// The same of the slow flow.
@@ -131,11 +146,11 @@ impl Slow {
         let spacing = end.abs() / self.rows.len() as f64;
         let edge = divergence_edge(&self.rows).map(|edge| edge.first_diverged);
         findings.number("secondary Hopf, slow flow", format!("ξ₁ = {:.9}", self.hopf.0));
-        for (name, value) in
-            [("first chaos, slow flow", first(&self.rows, MotionClass::Chaos)), ("first divergence, slow flow", edge)]
-        {
-            findings.number(name, value.map_or("none".to_owned(), |xi1| format!("ξ₁ = {xi1:.5}")));
-        }
+        let shown = |value: Option<f64>| value.map_or("none".to_owned(), |xi1| format!("ξ₁ = {xi1:.5}"));
+        let paper = if case.is_nominal() { " (the paper's slow flow: −0.1335)" } else { "" };
+        let chaos = shown(first(&self.rows, MotionClass::Chaos));
+        findings.number("first chaos, slow flow", format!("{chaos}, rows {spacing:.4} apart{paper}"));
+        findings.number("first divergence, slow flow", shown(edge));
         findings.checks.extend([
             case.nominal_only(Check::near(
                 "secondary Hopf of the slow flow",
@@ -162,8 +177,13 @@ fn figure(branch: &Branch, rows: &[DiagramRow], hopf: Option<(f64, f64)>, slow: 
     if let Some(edge) = divergence_edge(rows) {
         panel = panel.with(diverging(edge.first_diverged));
     }
-    panel = steady_series(rows).into_iter().fold(panel, Panel::series);
+    if let Some(edge) = divergence_edge(&slow.rows) {
+        let line = vec![(edge.first_diverged, 0.5), (edge.first_diverged, AMPLITUDE)];
+        panel = panel.series(Series::new("slow flow, first divergence", line, Style::Dotted, Tint::Purple));
+    }
+    // Dots last, so that stable cycles met by motions are seen on their line.
     panel = branch_series(branch).into_iter().fold(panel, Panel::series);
+    panel = steady_series(rows).into_iter().fold(panel, Panel::series);
     let pairs =
         slow.rows.iter().flat_map(|row| [row.a1_max, row.a1_min].into_iter().flatten().map(|a1| (row.value, a1)));
     panel = panel

@@ -16,10 +16,10 @@ pub(super) const ITEM: PaperItem = PaperItem {
     id: "fig9",
     origin: Origin::Paper("Fig. 9"),
     title: "critical damping of the secondary Hopf bifurcation",
-    caption: "(a) Equation (31), normalised: the limit cycle loses stability on the upper curve (start) and would regain it on the lower one (end); both meet in a cusp at ν = πκ²/(γξ₂) = 3. Circles: exact limit cycles, with κ varied at the given γ and ξ₂. \
-        (b)–(d) The same over ξ₂, κ and γ: equation (31) (pink) and exact points from Floquet multipliers (black). Grey: the motion started beside the limit cycle diverges within 6500 time units; \
-        an end point inside is never reached by increasing the self-excitation. Exact points are shown up to the fold of the limit cycle; some sets have a third, where stability is lost again.",
-    revision: 2,
+    caption: "(a) Equation (31), normalised: the limit cycle loses stability on the upper curve (start) and would regain it on the lower one (end); both meet in a cusp at ν = πκ²/(γξ₂) = 3. Exact limit cycles with κ varied at the given γ and ξ₂ stand beside it. \
+        (b)–(d) The same over ξ₂, κ and γ: equation (31) (pink) and exact points from Floquet multipliers (black): stability lost (filled), regained (open) and lost again (crosses). Grey: the motion started beside the limit cycle diverges within 6500 time units; \
+        an end point inside is never reached by increasing the self-excitation. Exact points are shown up to the fold of the limit cycle: sets without a symbol have no secondary Hopf point before it.",
+    revision: 3,
     compute,
 };
 
@@ -45,27 +45,37 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let mut findings = Findings::default();
     let mut tables = Vec::new();
     let mut reached = String::new();
+    let (mut without, mut sets_in_all) = (0, 0);
+    let mut below = BelowCusp::default();
     for (parameter, from, to, symbol, name) in VARIED {
         let sets = values(from, to, case.choose(41, 5));
         let rows: Vec<Result<Row, PaperError>> = sets.par_iter().map(|&value| row(case, parameter, value)).collect();
         let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
         if parameter == RigParameter::Kappa {
             panels.insert(0, normalised(case, &rows));
+            tables.push(("normalised", normalised_table(&rows)));
         }
+        findings.number(&format!("{name}: spacing of the sets"), format!("{symbol}: {:.4}", sets[1] - sets[0]));
+        sets_in_all += rows.len();
+        without += rows.iter().filter(|row| row.exact.is_empty()).count();
+        rows.iter().for_each(|row| below.take(row));
         for (low, high) in regained(&rows) {
             reached += &format!(" {symbol} from {low:.3} to {high:.3};");
         }
         panels.push(panel(&rows, parameter, (from, to), symbol, name));
         tables.push((parameter.name(), table(parameter, &rows)));
     }
+    findings.number("divergence looked for in steps of ξ₁ of", divergence_step(case));
+    findings.number("sets without a secondary Hopf point before the fold", format!("{without} of {sets_in_all}"));
     findings.number("an exact end point is reached before divergence for", reached.trim_end_matches(';'));
     // The order of the page: what is varied comes first.
     tables.into_iter().for_each(|(name, table)| findings.table(name, table));
-    findings.checks = checks(case)?;
     let order = observed_orders(case)?;
+    findings.checks = checks(case, &order)?;
     findings.verdict = format!(
-        "Equation (31) against the exact limit cycle: the difference shrinks with order {:.2} in ε (leading term: order 2); both end points exist only for ν ≥ 3.",
-        order.last().map_or(f64::NAN, |row| row.order)
+        "Equation (31) against the exact limit cycle: the difference shrinks with order {:.2} in ε (leading term: order 2). (31) has no solution below ν = 3; {}.",
+        order.last().map_or(f64::NAN, |row| row.order),
+        below.words()
     );
     findings.table(
         "order",
@@ -85,14 +95,54 @@ fn exact_points(parameters: RigParameters) -> Result<Vec<f64>, PaperError> {
     Ok(secondary_hopf(&branch).iter().map(|point| point.parameters.xi1).collect())
 }
 
+/// Exact points where equation (31) has none.
+#[derive(Default)]
+struct BelowCusp {
+    tried: usize,
+    /// Of those with a secondary Hopf point, the one with the smallest nu.
+    lowest: Option<(f64, RigParameters)>,
+}
+
+impl BelowCusp {
+    fn take(&mut self, row: &Row) {
+        let nu = nu(row.parameters);
+        if nu >= 3.0 {
+            return;
+        }
+        self.tried += 1;
+        if !row.exact.is_empty() && self.lowest.is_none_or(|(lowest, _)| nu < lowest) {
+            self.lowest = Some((nu, row.parameters));
+        }
+    }
+
+    fn words(&self) -> String {
+        match (self.tried, self.lowest) {
+            (0, _) => "no set below was tried".to_owned(),
+            (tried, None) => format!("nor has the exact cycle a secondary Hopf point before its fold in {tried} sets"),
+            (_, Some((nu, p))) => format!(
+                "the exact cycle still loses stability there, down to ν = {nu:.1} (ξ₂ = {:.4}, κ = {:.4}, γ = {:.4})",
+                p.xi2, p.kappa, p.gamma
+            ),
+        }
+    }
+}
+
+/// What equation (31) depends on alone.
+fn nu(p: RigParameters) -> f64 {
+    PI * p.kappa.powi(2) / (p.gamma * p.xi2)
+}
+
+fn divergence_step(case: &Case) -> f64 {
+    case.choose(0.0025, 0.01)
+}
+
 fn row(case: &Case, parameter: RigParameter, value: f64) -> Result<Row, PaperError> {
     let parameters = case.parameters.with(parameter, value).validated()?;
-    let step = case.choose(0.0025, 0.01);
     Ok(Row {
         varied: value,
         parameters,
         exact: exact_points(parameters)?,
-        divergence: divergence(parameters, step, LOWEST)?,
+        divergence: divergence(parameters, divergence_step(case), LOWEST)?,
     })
 }
 
@@ -130,12 +180,11 @@ fn observed_orders(case: &Case) -> Result<Vec<OrderRow>, PaperError> {
     Ok(rows)
 }
 
-fn checks(case: &Case) -> Result<Vec<Check>, PaperError> {
+fn checks(case: &Case, orders: &[OrderRow]) -> Result<Vec<Check>, PaperError> {
     let p = case.parameters;
     let at_nu = |nu: f64| RigParameters { kappa: (nu * p.gamma * p.xi2 / PI).sqrt(), ..p };
     let cusp = at_nu(3.0 * (1.0 + 1e-12)).analytic_hopf();
     let ratio = |xi1: Option<f64>| xi1.map_or(f64::NAN, |xi1| xi1 / p.xi2);
-    let orders = observed_orders(case)?;
     let last = orders.last().map_or(f64::NAN, |row| row.order);
     let nominal = exact_points(RigParameters::default())?;
     let pairs = [(RigParameter::Kappa, 0.074), (RigParameter::Kappa, 0.21), (RigParameter::Gamma, 0.7)];
@@ -205,10 +254,7 @@ fn normalised(case: &Case, rows: &[Row]) -> Panel {
             at.analytic_hopf().map(|hopf| (nu, hopf.start / p.xi2, hopf.end / p.xi2))
         })
         .collect();
-    let nu = |row: &Row| PI * row.parameters.kappa.powi(2) / (row.parameters.gamma * row.parameters.xi2);
-    let exact =
-        rows.iter().flat_map(|row| row.exact.iter().map(move |xi1| (nu(row), xi1 / row.parameters.xi2))).collect();
-    Panel::new("ν = πκ²/(γξ₂)", "ξ₁ / ξ₂")
+    let panel = Panel::new("ν = πκ²/(γξ₂)", "ξ₁ / ξ₂")
         .titled("(a)")
         .x_range(2.0, 12.0)
         .y_range(-40.0, 0.0)
@@ -223,8 +269,18 @@ fn normalised(case: &Case, rows: &[Row]) -> Panel {
             analytic.iter().map(|a| (a.0, a.2)).collect(),
             Style::Dashed,
             Tint::Purple,
-        ))
-        .series(Series::new("exact limit cycle", exact, Style::Rings, Tint::Black))
+        ));
+    exact_series(rows, |row, xi1| (nu(row.parameters), xi1 / row.parameters.xi2)).into_iter().fold(panel, Panel::series)
+}
+
+/// Secondary Hopf points in the order in which they are met.
+fn exact_series(rows: &[Row], place: impl Fn(&Row, f64) -> (f64, f64)) -> Vec<Series> {
+    let looks = [("start", Style::Markers), ("end", Style::Rings), ("lost again", Style::Crosses)];
+    let series = looks.iter().enumerate().map(|(n, (name, style))| {
+        let points = rows.iter().filter_map(|row| row.exact.get(n).map(|xi1| place(row, *xi1))).collect();
+        Series::new(&format!("exact limit cycle, {name}"), points, *style, Tint::Black)
+    });
+    series.filter(|series| !series.points.is_empty()).collect()
 }
 
 fn panel(rows: &[Row], parameter: RigParameter, (from, to): (f64, f64), symbol: &str, name: &str) -> Panel {
@@ -234,30 +290,66 @@ fn panel(rows: &[Row], parameter: RigParameter, (from, to): (f64, f64), symbol: 
     let base = rows.first().map_or_else(RigParameters::default, |row| row.parameters);
     let analytic = |pick: fn(crate::model::AnalyticHopf) -> f64| {
         let at = |value: f64| base.with(parameter, value).analytic_hopf().map_or(f64::NAN, pick);
-        values(from, to, 800).into_iter().map(|value| (value, at(value))).collect()
+        let mut places = values(from, to, 800);
+        // The nose lies between two of them: without it the two curves would not meet.
+        places.extend(cusp(base, parameter));
+        places.sort_by(f64::total_cmp);
+        places.into_iter().map(|value| (value, at(value))).collect()
     };
-    let exact = rows.iter().flat_map(|row| row.exact.iter().map(|xi1| (row.varied, *xi1))).collect();
-    Panel::new(symbol, "ξ₁")
+    let panel = Panel::new(symbol, "ξ₁")
         .titled(name)
         .x_range(from, to)
         .y_range(lowest, 0.0)
         .with(Mark::Region { label: "diverges".to_owned(), outline, tint: Tint::Grey })
         .series(Series::new("equation (31), start", analytic(|hopf| hopf.start), Style::Line, Tint::Purple))
-        .series(Series::new("equation (31), end", analytic(|hopf| hopf.end), Style::Dashed, Tint::Purple))
-        .series(Series::new("exact limit cycle", exact, Style::Rings, Tint::Black))
+        .series(Series::new("equation (31), end", analytic(|hopf| hopf.end), Style::Dashed, Tint::Purple));
+    exact_series(rows, |row, xi1| (row.varied, xi1)).into_iter().fold(panel, Panel::series)
+}
+
+/// Where nu = 3 when one parameter is varied, on the side of larger nu by less than the width of a line.
+fn cusp(p: RigParameters, parameter: RigParameter) -> Option<f64> {
+    let inside = 1e-12;
+    match parameter {
+        RigParameter::Xi2 => Some(PI * p.kappa.powi(2) / (3.0 * p.gamma) * (1.0 - inside)),
+        RigParameter::Kappa => Some((3.0 * p.gamma * p.xi2 / PI).sqrt() * (1.0 + inside)),
+        RigParameter::Gamma => Some(PI * p.kappa.powi(2) / (3.0 * p.xi2) * (1.0 - inside)),
+        // Equation (31) is solved for it.
+        RigParameter::Xi1 => None,
+    }
+}
+
+/// The n-th exact point of each row.
+fn nth(rows: &[Row], n: usize) -> Vec<f64> {
+    rows.iter().map(|row| row.exact.get(n).copied().unwrap_or(f64::NAN)).collect()
+}
+
+fn normalised_table(rows: &[Row]) -> crate::store::Table {
+    let over_xi2 =
+        |values: Vec<f64>| values.iter().zip(rows).map(|(xi1, row)| xi1 / row.parameters.xi2).collect::<Vec<_>>();
+    let analytic = |pick: fn(crate::model::AnalyticHopf) -> f64| {
+        over_xi2(rows.iter().map(|row| row.parameters.analytic_hopf().map_or(f64::NAN, pick)).collect())
+    };
+    numbers(vec![
+        ("nu", rows.iter().map(|row| nu(row.parameters)).collect()),
+        ("start_equation_31_over_xi2", analytic(|hopf| hopf.start)),
+        ("end_equation_31_over_xi2", analytic(|hopf| hopf.end)),
+        ("start_exact_over_xi2", over_xi2(nth(rows, 0))),
+        ("end_exact_over_xi2", over_xi2(nth(rows, 1))),
+        ("lost_again_exact_over_xi2", over_xi2(nth(rows, 2))),
+    ])
 }
 
 fn table(parameter: RigParameter, rows: &[Row]) -> crate::store::Table {
     let analytic = |pick: fn(crate::model::AnalyticHopf) -> f64| {
         rows.iter().map(|row| row.parameters.analytic_hopf().map_or(f64::NAN, pick)).collect::<Vec<_>>()
     };
-    let nth = |n: usize| rows.iter().map(|row| row.exact.get(n).copied().unwrap_or(f64::NAN)).collect::<Vec<_>>();
     numbers(vec![
         (parameter.name(), rows.iter().map(|row| row.varied).collect()),
         ("start_equation_31", analytic(|hopf| hopf.start)),
         ("end_equation_31", analytic(|hopf| hopf.end)),
-        ("start_exact", nth(0)),
-        ("end_exact", nth(1)),
+        ("start_exact", nth(rows, 0)),
+        ("end_exact", nth(rows, 1)),
+        ("lost_again_exact", nth(rows, 2)),
         ("divergence", rows.iter().map(|row| row.divergence.unwrap_or(f64::NAN)).collect()),
     ])
 }

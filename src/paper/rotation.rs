@@ -16,14 +16,16 @@ pub(super) const ITEM: PaperItem = PaperItem {
     id: "rotation",
     origin: Origin::Beyond,
     title: "rotation number of the torus over ξ₁",
-    caption: "Mean angle by which the torus turns from one reversal of mass 1 to the next, over 2π, and the period of the modulation that follows from it, for the exact motion started beside the limit cycle. \
+    caption: "Mean angle by which the torus turns from one reversal of mass 1 to the next, in turns, and the period of the modulation that follows from it, for the exact motion started beside the limit cycle. \
         Ring: argument of the half-period Floquet multiplier at the secondary Hopf point. After the torus has doubled, the angle counts turns around the mean and the period is that of a single turn.",
-    revision: 1,
+    revision: 2,
     compute,
 };
 
 /// Where the nominal motion turns chaotic: there is no torus beyond.
 const LOWEST: f64 = -0.148;
+/// Between the rows from which the limit at the secondary Hopf point is taken: motions nearer to it settle too slowly.
+const STEP: f64 = 0.001;
 
 fn compute(case: &Case) -> Result<Findings, PaperError> {
     let branch = branch_to_fold(case.parameters)?;
@@ -31,43 +33,31 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let hopf = hopf.ok_or_else(|| PaperError::missing("secondary Hopf point", case.parameters))?;
     let angle = hopf.rotation_angle().ok_or_else(|| PaperError::missing("secondary Hopf point", case.parameters))?;
     let start = hopf.parameters.xi1;
-    let (near, far) = (0.002, 0.004);
-    let mut xi1 = vec![start - near, start - far];
-    xi1.extend(values(start - 0.006, LOWEST.min(1.5 * start), case.choose(110, 8)));
+    let near = [1.0, 2.0, 3.0].map(|n| start - n * STEP);
+    let mut xi1 = near.to_vec();
+    xi1.extend(values(start - 4.0 * STEP, LOWEST.min(1.5 * start), case.choose(110, 8)));
     let found: Vec<_> = xi1.par_iter().map(|&xi1| rotation(case, xi1)).collect::<Vec<_>>();
     let mut rows = Vec::new();
     for (xi1, found) in xi1.iter().zip(found) {
         rows.extend(found?.map(|rotation| (*xi1, rotation)));
     }
     let mut findings = Findings::default();
-    if let [(_, one), (_, two), ..] = rows.as_slice() {
-        let extrapolated = 2.0 * one.rotation_number - two.rotation_number;
-        let first_order = (two.rotation_number - one.rotation_number).abs();
-        findings.checks.push(case.nominal_only(Check::near(
-            "rotation number at the secondary Hopf point, rad",
-            angle,
-            extrapolated,
-            0.25 * first_order + one.rotation_error + two.rotation_error,
-            "argument of the Floquet multiplier there; extrapolated linearly from 0.002 and 0.004 beyond, the second-order term taken as at most a quarter of the first",
-        )));
-        findings.number(
-            "extrapolated to the secondary Hopf point",
-            format!("{extrapolated:.7} rad; Floquet multiplier: {angle:.7} rad"),
-        );
-    }
+    let limit = near_limit(&rows, near);
+    findings.checks.push(case.nominal_only(Check::near(
+        "rotation number at the secondary Hopf point, rad",
+        angle,
+        limit.value,
+        limit.uncertainty,
+        "argument of the Floquet multiplier there; extrapolated by a parabola through the three rows nearest by; what that leaves out is taken as no more than its own difference from a straight line, the measured curvature, and the errors of the three rows are added",
+    )));
+    findings.number(
+        "extrapolated to the secondary Hopf point",
+        format!("{:.7} ± {:.0e} rad; Floquet multiplier: {angle:.7} rad", limit.value, limit.uncertainty),
+    );
     let worst = rows.iter().map(|row| row.1.rotation_error).fold(0.0, f64::max);
     findings.checks.push(case.nominal_only(Check::at_most("difference between halves of a window, worst row, rad", case.choose(1e-3, 1e-2), worst, "the average converges fast on a smooth torus; a thousandth of a radian is 0.4 % of the smallest angle (quick: shorter windows)")));
     let slow = |row: &(f64, Rotation)| row.1.slow_period;
-    findings.verdict = match (rows.first(), rows.last()) {
-        (Some(first), Some(last)) => format!(
-            "The modulation's period goes from {:.2} at ξ₁ = {:.4} to {:.2} at {:.4}.",
-            slow(first),
-            first.0,
-            slow(last),
-            last.0
-        ),
-        _ => "No torus was found.".to_owned(),
-    };
+    findings.verdict = verdict(&rows);
     findings.table(
         "rotation",
         numbers(vec![
@@ -83,7 +73,7 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let number = rows.iter().map(|row| (row.0, row.1.rotation_number / TAU)).collect();
     let at_hopf = vec![(start, angle / TAU)];
     let panels = vec![
-        Panel::new("ξ₁", "rotation number / 2π").series(Series::new("torus", number, Style::Dots, Tint::Blue)).series(
+        Panel::new("ξ₁", "turns per half period").series(Series::new("torus", number, Style::Dots, Tint::Blue)).series(
             Series::new("Floquet multiplier at the secondary Hopf point", at_hopf, Style::Rings, Tint::Vermillion),
         ),
         Panel::new("ξ₁", "period of the modulation").series(Series::new(
@@ -95,6 +85,39 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     ];
     findings.figure = Some(Figure::grid(2, (1160, 500), panels));
     Ok(findings)
+}
+
+/// A value at the secondary Hopf point; the uncertainty counts what the extrapolation leaves out.
+struct Limit {
+    value: f64,
+    uncertainty: f64,
+}
+
+/// Extrapolates from the three rows nearest by, one, two and three steps beyond; NaN if one of them is missing.
+fn near_limit(rows: &[(f64, Rotation)], near: [f64; 3]) -> Limit {
+    let at = near.map(|xi1| rows.iter().find(|row| row.0 == xi1).map(|row| row.1));
+    let number = at.map(|row| row.map_or(f64::NAN, |row| row.rotation_number));
+    let errors: f64 = at.iter().map(|row| row.map_or(f64::NAN, |row| row.rotation_error)).sum();
+    let curvature = number[0] - 2.0 * number[1] + number[2];
+    Limit {
+        value: 3.0 * number[0] - 3.0 * number[1] + number[2],
+        // The weights of the errors are 3, 3 and 1.
+        uncertainty: curvature.abs() + 3.0 * errors,
+    }
+}
+
+fn verdict(rows: &[(f64, Rotation)]) -> String {
+    let slow = |row: &(f64, Rotation)| format!("{:.2} at ξ₁ = {:.4}", row.1.slow_period, row.0);
+    let largest = rows.iter().max_by(|a, b| a.1.slow_period.total_cmp(&b.1.slow_period));
+    match (rows.first(), largest, rows.last()) {
+        (Some(first), Some(largest), Some(last)) => format!(
+            "The modulation's period goes from {} to {}; the longest in between is {}.",
+            slow(first),
+            slow(last),
+            slow(largest)
+        ),
+        _ => "No torus was found.".to_owned(),
+    }
 }
 
 /// `None` where the motion is no torus around the cycle.
