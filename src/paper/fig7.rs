@@ -7,7 +7,7 @@ use super::check::Check;
 use super::error::PaperError;
 use super::exact::settled;
 use super::fig6::XI1;
-use super::item::{Case, Findings, Origin, PaperItem, numbers};
+use super::item::{Case, Effort, Findings, Origin, PaperItem, numbers};
 use super::slow::{beside_the_cycle, frequency};
 use crate::averaging::EnergyFrequency;
 use crate::chaos::{Criteria, MotionClass, PoincareMap, PoincareSection, classify, poincare_map};
@@ -21,8 +21,8 @@ pub(super) const ITEM: PaperItem = PaperItem {
     origin: Origin::Paper("Fig. 7"),
     title: "Poincaré maps of the slow flow on S",
     caption: "As Fig. 6, from the slow flow with the fast oscillation restored by (4)-(5), started beside its own limit cycle, at the same values of ξ₁. \
-        Whether they are the same motions is said below, panel by panel.",
-    revision: 2,
+        Whether they are the same motions is said below, panel by panel; kinds of motion are told by the separation of neighbours over the motion shown, where chaos with an exponent below some 3·10⁻⁴ counts as a torus, and so does a window of periodic slow motion.",
+    revision: 3,
     compute,
 };
 
@@ -91,7 +91,12 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         );
         findings.number(&format!("ξ₁ = {}", portrait.xi1), found);
     }
-    findings.verdict = verdict(&portraits, case.parameters.kappa);
+    findings.verdict = match case.effort {
+        Effort::Full => verdict(&portraits, case.parameters.kappa),
+        Effort::Quick => {
+            "Quick motions are too short to be told apart: a full run compares them with the exact ones.".to_owned()
+        }
+    };
     let rows = || portraits.iter().flat_map(|p| p.map.points.iter().map(move |point| (p.xi1, point)));
     findings.table(
         "section",
@@ -174,21 +179,34 @@ fn checks(case: &Case, portraits: &[Portrait]) -> Vec<Check> {
             portrait.distance(),
             reason,
         ));
-        checks.push(is(name, "torus", portrait.class, "before the first doubling of the slow flow's torus (Table 1)"));
+        checks.push(Check::holds(
+            &format!("{name}: kind of motion of the slow flow"),
+            "torus",
+            class_name(portrait.class),
+            portrait.class == MotionClass::Torus,
+            "between the secondary Hopf point and the first doubling of the slow flow's torus (Table 1)",
+        ));
     }
     for (portrait, name) in portraits.iter().zip(NAMES).skip(2) {
-        let reason = "beyond the end of the slow flow's cascade (Table 1), towards which its doublings converge";
-        checks.push(is(name, "chaos", portrait.class, reason));
+        checks.push(Check::at_least(
+            &format!("{name}: distance from the exact section"),
+            case.parameters.kappa * reach(&portrait.exact),
+            portrait.distance(),
+            "the slow flow is past its cascade of doublings (Table 1), by more than the exact one in every panel: more lies between than the terms that averaging leaves out",
+        ));
     }
     let (everywhere, bound_to_nominal) = checks.split_at(1);
     let mut checks = everywhere.to_vec();
-    checks.extend(bound_to_nominal.iter().cloned().map(|check| case.nominal_only(check)));
+    checks.extend(bound_to_nominal.iter().cloned().map(|check| decided_by_long_motions(case, check)));
     checks
 }
 
-fn is(panel: &str, expected: &str, found: MotionClass, reason: &str) -> Check {
-    let found = class_name(found);
-    Check::holds(&format!("{panel}: kind of motion of the slow flow"), expected, found, found == expected, reason)
+/// Sections of quick motions have gaps, and neighbours have no time to separate.
+fn decided_by_long_motions(case: &Case, check: Check) -> Check {
+    match case.effort {
+        Effort::Full => case.nominal_only(check),
+        Effort::Quick => Check { passed: None, ..check },
+    }
 }
 
 fn panel((portrait, name): (Portrait, &str)) -> Panel {

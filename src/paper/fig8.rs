@@ -131,10 +131,10 @@ fn repeats(section: &[(f64, f64)]) -> Option<usize> {
     (1..=section.len() / 2).find(|cycle| distance_after(section, *cycle) < TOGETHER)
 }
 
-/// The largest number of passages tried, and the distance of the best repeat.
+/// The largest number of passages tried, and the distance of the best repeat; not a number without passages.
 fn recurrence(section: &[(f64, f64)]) -> (usize, f64) {
     let longest = section.len() / 2;
-    (longest, (1..=longest).map(|cycle| distance_after(section, cycle)).fold(f64::INFINITY, f64::min))
+    (longest, (1..=longest).map(|cycle| distance_after(section, cycle)).fold(f64::NAN, f64::min))
 }
 
 fn checks(case: &Case, portraits: &[Portrait], counts: &[usize]) -> Vec<Check> {

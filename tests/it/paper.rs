@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use stickslip::model::RigParameters;
 use stickslip::paper::{
-    Case, Check, Effort, Findings, ITEMS, Origin as Place, PaperError, PaperItem, run, write_index,
+    Case, Check, Effort, Findings, ITEMS, Origin as Place, PaperError, PaperItem, numbers, run, write_index,
 };
 use stickslip::store::{Existing, Origin, OutputDir};
 
@@ -128,6 +128,27 @@ fn an_item_that_cannot_be_computed_is_a_failed_entry_and_is_tried_again() {
     let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
     assert!(page.contains("unicorn") && page.contains("✗ failed"));
     assert!(stickslip::paper::stored(&FAILING, &dir).is_none());
+}
+
+fn compute_elsewhere(case: &Case) -> Result<Findings, PaperError> {
+    let mut findings = Findings::default();
+    let table = || numbers(vec![("x", vec![1.0])]);
+    findings.table("own", table());
+    findings.table_at("elsewhere", RigParameters { kappa: 0.074, ..case.parameters }, table());
+    Ok(findings)
+}
+
+#[test]
+fn a_table_made_with_other_parameters_names_them() {
+    const ITEM: PaperItem = PaperItem { id: "tables", compute: compute_elsewhere, ..WRONG };
+    let folder = tempfile::tempdir().unwrap();
+    let case = Case { parameters: RigParameters::default(), effort: Effort::Quick };
+    let dir = OutputDir::open(folder.path(), &Origin::new("paper", serde_json::json!({})), Existing::Resume).unwrap();
+    run(&[&ITEM], &case, &dir, |_| {}).unwrap();
+    let header = |file: &str| fs::read_to_string(folder.path().join(file)).unwrap();
+    assert!(header("tables.csv").contains("# parameters: xi2 = 0.011, kappa = 0.1, gamma = 0.5"));
+    let other = header("tables-elsewhere.csv");
+    assert!(other.contains("# parameters: xi2 = 0.011, kappa = 0.074, gamma = 0.5") && !other.contains("kappa = 0.1,"));
 }
 
 fn passes(parameters: RigParameters, folder: &Path) -> bool {
