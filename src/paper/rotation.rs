@@ -6,7 +6,7 @@
 use super::check::Check;
 use super::error::PaperError;
 use super::exact::{beside_the_cycle, branch_to_fold, secondary_hopf, settled, values};
-use super::item::{Case, Findings, Origin, PaperItem, numbers};
+use super::item::{Case, Effort, Findings, Origin, PaperItem, numbers};
 use crate::chaos::{ChaosError, Rotation, torus_rotation};
 use crate::report::{Figure, Panel, Series, Style, Tint};
 use rayon::prelude::*;
@@ -36,7 +36,10 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let near = [1.0, 2.0, 3.0].map(|n| start - n * STEP);
     let mut xi1 = near.to_vec();
     xi1.extend(values(start - 4.0 * STEP, LOWEST.min(1.5 * start), case.choose(110, 8)));
-    let found: Vec<_> = xi1.par_iter().map(|&xi1| rotation(case, xi1)).collect::<Vec<_>>();
+    // Next to the Hopf point motions settle slowly: the rows of the limit are long in quick runs too.
+    let long = Case { effort: Effort::Full, ..*case };
+    let found: Vec<_> =
+        xi1.par_iter().map(|xi1| rotation(if near.contains(xi1) { &long } else { case }, *xi1)).collect::<Vec<_>>();
     let mut rows = Vec::new();
     for (xi1, found) in xi1.iter().zip(found) {
         rows.extend(found?.map(|rotation| (*xi1, rotation)));
