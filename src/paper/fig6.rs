@@ -37,8 +37,9 @@ struct Portrait {
     rounds: Option<u32>,
 }
 
-/// What the nominal panels show, by the doublings of the torus.
-const ROUNDS: [Option<u32>; 5] = [Some(1), Some(1), Some(2), Some(4), None];
+/// What the nominal panels (b) to (e) show, by the doublings of the torus. Not asked of (a): its torus turns once in 27.46 reversals, so
+/// that errors of the interpolated envelopes would alternate from turn to turn, and their level is measured from -0.12 on only: undecided.
+const ROUNDS: [Option<u32>; 4] = [Some(1), Some(2), Some(4), None];
 
 fn compute(case: &Case) -> Result<Findings, PaperError> {
     let portraits: Vec<Result<Portrait, PaperError>> = XI1.par_iter().map(|&xi1| portrait(case, xi1)).collect();
@@ -54,7 +55,8 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
         });
         findings.number(&format!("ξ₁ = {}", portrait.xi1), text);
     }
-    let rounds: Vec<String> = portraits.iter().zip(NAMES).map(|(p, name)| format!("{name} {}", times(p))).collect();
+    let rounds: Vec<String> =
+        portraits.iter().zip(NAMES).skip(1).map(|(p, name)| format!("{name} {}", times(p))).collect();
     findings.verdict = format!("Turns of the section before it closes: {}.", rounds.join(", "));
     let rows = || portraits.iter().flat_map(|p| p.map.points.iter().map(move |point| (p.xi1, point)));
     findings.table(
@@ -133,7 +135,7 @@ fn checks(case: &Case, portraits: &[Portrait]) -> Vec<Check> {
         };
         checks.push(case.nominal_only(check));
     }
-    for ((portrait, name), rounds) in portraits.iter().zip(NAMES).zip(ROUNDS) {
+    for ((portrait, name), rounds) in portraits.iter().zip(NAMES).skip(1).zip(ROUNDS) {
         let expected = rounds.map_or("more than 8".to_owned(), |rounds| rounds.to_string());
         let found = times(portrait);
         let passed = found == expected;

@@ -67,7 +67,8 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     }
     findings.number("divergence looked for in steps of ξ₁ of", divergence_step(case));
     findings.number("sets without a secondary Hopf point before the fold", format!("{without} of {sets_in_all}"));
-    findings.number("an exact end point is reached before divergence for", reached.trim_end_matches(';'));
+    let reached = if reached.is_empty() { "none of the sets" } else { reached.trim_end_matches(';') };
+    findings.number("an exact end point is reached before divergence for", reached);
     // The order of the page: what is varied comes first.
     tables.into_iter().for_each(|(name, table)| findings.table(name, table));
     let order = observed_orders(case)?;

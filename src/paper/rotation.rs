@@ -6,7 +6,7 @@
 use super::check::Check;
 use super::error::PaperError;
 use super::exact::{beside_the_cycle, branch_to_fold, secondary_hopf, settled, values};
-use super::item::{Case, Findings, Origin, PaperItem, numbers};
+use super::item::{Case, Effort, Findings, Origin, PaperItem, numbers};
 use crate::chaos::{ChaosError, Rotation, torus_rotation};
 use crate::report::{Figure, Panel, Series, Style, Tint};
 use rayon::prelude::*;
@@ -36,13 +36,16 @@ fn compute(case: &Case) -> Result<Findings, PaperError> {
     let near = [1.0, 2.0, 3.0].map(|n| start - n * STEP);
     let mut xi1 = near.to_vec();
     xi1.extend(values(start - 4.0 * STEP, LOWEST.min(1.5 * start), case.choose(110, 8)));
-    let found: Vec<_> = xi1.par_iter().map(|&xi1| rotation(case, xi1)).collect::<Vec<_>>();
+    // Next to the Hopf point motions settle slowly: the rows of the limit are long in quick runs too.
+    let long = Case { effort: Effort::Full, ..*case };
+    let found: Vec<_> =
+        xi1.par_iter().map(|xi1| rotation(if near.contains(xi1) { &long } else { case }, *xi1)).collect::<Vec<_>>();
     let mut rows = Vec::new();
     for (xi1, found) in xi1.iter().zip(found) {
         rows.extend(found?.map(|rotation| (*xi1, rotation)));
     }
     let mut findings = Findings::default();
-    let limit = near_limit(&rows, near);
+    let limit = near_limit(&rows, near).unwrap_or(Limit { value: f64::NAN, uncertainty: 0.0 });
     findings.checks.push(case.nominal_only(Check::near(
         "rotation number at the secondary Hopf point, rad",
         angle,
@@ -93,17 +96,15 @@ struct Limit {
     uncertainty: f64,
 }
 
-/// Extrapolates from the three rows nearest by, one, two and three steps beyond; NaN if one of them is missing.
-fn near_limit(rows: &[(f64, Rotation)], near: [f64; 3]) -> Limit {
-    let at = near.map(|xi1| rows.iter().find(|row| row.0 == xi1).map(|row| row.1));
-    let number = at.map(|row| row.map_or(f64::NAN, |row| row.rotation_number));
-    let errors: f64 = at.iter().map(|row| row.map_or(f64::NAN, |row| row.rotation_error)).sum();
-    let curvature = number[0] - 2.0 * number[1] + number[2];
-    Limit {
-        value: 3.0 * number[0] - 3.0 * number[1] + number[2],
-        // The weights of the errors are 3, 3 and 1.
-        uncertainty: curvature.abs() + 3.0 * errors,
-    }
+/// Extrapolates from the three rows nearest by, one, two and three steps beyond; `None` if one of them is missing.
+fn near_limit(rows: &[(f64, Rotation)], near: [f64; 3]) -> Option<Limit> {
+    let at = |xi1: f64| rows.iter().find(|row| row.0 == xi1).map(|row| row.1);
+    let [one, two, three] = [at(near[0])?, at(near[1])?, at(near[2])?];
+    let curvature = one.rotation_number - 2.0 * two.rotation_number + three.rotation_number;
+    let value = 2.0 * one.rotation_number - two.rotation_number + curvature;
+    // The weights of the errors are 3, 3 and 1.
+    let errors = 3.0 * (one.rotation_error + two.rotation_error) + three.rotation_error;
+    Some(Limit { value, uncertainty: curvature.abs() + errors })
 }
 
 fn verdict(rows: &[(f64, Rotation)]) -> String {
