@@ -1,42 +1,7 @@
-//! Linear forces of chains with many oscillators, each coupled to few: the entries that are not zero, row by row.
+//! Linear forces of chains with many oscillators, each coupled to few.
 
 use super::force_law::{ForceLaw, Known};
-use crate::model::{OscillatorChain, ParameterError};
-use nalgebra::DMatrix;
-
-/// The entries of a square matrix that are not zero.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct SparseMatrix {
-    /// Entries of row i: `starts[i]..starts[i + 1]`, in order of columns.
-    starts: Vec<usize>,
-    entries: Vec<(usize, f64)>,
-}
-
-impl SparseMatrix {
-    pub(super) fn of(matrix: &DMatrix<f64>) -> Self {
-        let mut starts = vec![0];
-        let mut entries = Vec::new();
-        for i in 0..matrix.nrows() {
-            let row = (0..matrix.ncols()).map(|j| (j, matrix[(i, j)]));
-            entries.extend(row.filter(|(_, value)| *value != 0.0));
-            starts.push(entries.len());
-        }
-        Self { starts, entries }
-    }
-
-    fn rows(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    /// `target -= matrix * values`, for slices of the right length.
-    pub(super) fn subtract_product(&self, values: &[f64], target: &mut [f64]) {
-        for (bounds, target) in self.starts.windows(2).zip(target) {
-            for (column, value) in &self.entries[bounds[0]..bounds[1]] {
-                *target -= value * values[*column];
-            }
-        }
-    }
-}
+use crate::model::{OscillatorChain, ParameterError, SparseMatrix};
 
 /// All linear forces of a chain, `-K x - (D + S) v`, at a cost that grows with the number of couplings: what [`super::Springs`],
 /// [`super::Dampers`] and [`super::SelfExcitation`] exert together.
@@ -55,7 +20,7 @@ impl LinearForces {
 
 impl ForceLaw for LinearForces {
     fn check(&self, chain: &OscillatorChain) -> Result<(), ParameterError> {
-        let (found, expected) = (self.stiffness.rows(), chain.oscillators());
+        let (found, expected) = (self.stiffness.size(), chain.oscillators());
         if found == expected {
             return Ok(());
         }
@@ -73,6 +38,7 @@ mod tests {
     use super::*;
     use crate::engine::laws_of;
     use crate::model::ChainBuilder;
+    use nalgebra::DMatrix;
 
     #[test]
     fn sparse_forces_are_those_of_the_whole_matrices() {

@@ -9,8 +9,7 @@
 //! stored energy all are. It measures the solver together with this quadrature.
 
 use super::instant::Instant;
-use super::linear::SparseMatrix;
-use crate::model::{OscillatorChain, Works};
+use crate::model::{OscillatorChain, SparseMatrix, Works};
 
 /// Computes works; keeps the matrices and room for the forces.
 #[derive(Debug, Clone)]
