@@ -55,7 +55,7 @@ impl Stage {
     /// With what stands beside the motion, where there is something.
     #[must_use]
     pub fn new(case: Case, motion: Motion, beside: Beside) -> Self {
-        let palette = Palette::of(case.film.theme);
+        let palette = Palette::of(case.film.theme).before(case.film.background);
         let layout = Layout::new([case.film.width, case.film.height], case.panels().len());
         let panels = Panels::new(&case, &motion, beside.map.as_ref(), &layout.panels, layout.scale, palette);
         let rig = RigModel::new(&case, &motion, palette);

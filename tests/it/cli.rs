@@ -455,3 +455,22 @@ fn a_story_is_filmed_scene_by_scene_and_its_manifest_says_what_each_frame_shows(
     refused(&["animate", directory, "-o", "film.avi"], &[".gif"]);
     refused(&["contact-sheet", folder.path().to_str().unwrap()], &["manifest"]);
 }
+
+#[test]
+fn without_ffmpeg_its_film_is_refused_before_anything_is_computed() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("film");
+    let run = Command::cargo_bin("stickslip")
+        .unwrap()
+        .args(["run", "--encoder", "ffmpeg", "-o"])
+        .arg(&output)
+        .env("PATH", folder.path())
+        .output()
+        .unwrap();
+    let message = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert_eq!(run.status.code(), Some(2), "{message}");
+    for word in ["no ffmpeg", "install", "--encoder openh264"] {
+        assert!(message.contains(word), "{message}");
+    }
+    assert!(!output.exists());
+}
