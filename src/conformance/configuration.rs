@@ -94,18 +94,30 @@ impl Configuration {
         })
     }
 
+    /// Those with friction averaged over the step, which is made for one substep and changes nothing where there is no friction.
+    pub fn averaged() -> impl Iterator<Item = Self> {
+        let all = Self::hooks().filter(|c| c.substeps == 1 && c.scheme == Scheme::SecondOrder);
+        all.map(|c| Self { scheme: Scheme::AveragedFriction, ..c })
+    }
+
     /// For readers: `f64, impulse joints, 1 substep, second-order recipe`.
     #[must_use]
     pub fn label(self) -> String {
         let Self { precision, joints, mechanism, substeps, scheme } = self;
         let scheme = match scheme {
             Scheme::SecondOrder => "half-step start, predicted velocity",
+            Scheme::AveragedFriction => "half-step start, predicted velocity, friction averaged over the step",
             Scheme::LaggingDamping => "half-step start, late velocity",
             Scheme::Plain => "velocity at face value",
         };
         let mechanism = if mechanism == Mechanism::Hook { String::new() } else { format!("{}, ", mechanism.word()) };
         let plural = if substeps == 1 { "" } else { "s" };
         format!("{}, {} joints, {mechanism}{substeps} substep{plural}, {scheme}", precision.word(), joints.word())
+    }
+
+    /// Whether positions, forces and velocities are all told at the instants they belong to.
+    fn is_staggered(self) -> bool {
+        matches!(self.scheme, Scheme::SecondOrder | Scheme::AveragedFriction)
     }
 
     #[must_use]
@@ -132,7 +144,7 @@ impl Configuration {
     /// Two where positions and forces are at the same instants, one otherwise: substeps move positions under a force that stands still.
     #[must_use]
     pub fn expected_order(self) -> f64 {
-        if self.scheme == Scheme::SecondOrder && self.substeps == 1 { 2.0 } else { 1.0 }
+        if self.is_staggered() && self.substeps == 1 { 2.0 } else { 1.0 }
     }
 }
 

@@ -104,6 +104,7 @@ fn look(configuration: Configuration) -> (Style, Tint) {
         (Scheme::SecondOrder, Precision::Double, Joints::Impulse, _) => (Style::Line, Tint::Blue),
         (Scheme::SecondOrder, Precision::Double, Joints::Multibody, _) => (Style::Dashed, Tint::Green),
         (Scheme::SecondOrder, Precision::Single, ..) => (Style::Dashed, Tint::Sky),
+        (Scheme::AveragedFriction, ..) => (Style::Dashed, Tint::Purple),
         (Scheme::LaggingDamping, ..) => (Style::Line, Tint::Orange),
         (Scheme::Plain, _, _, 1) => (Style::Line, Tint::Purple),
         (Scheme::Plain, Precision::Double, ..) => (Style::Line, Tint::Vermillion),
