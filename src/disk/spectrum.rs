@@ -1,29 +1,12 @@
-//! Amplitudes of the waves of a ring at an instant, and over time.
-//!
-//! With `z_j = x_j - i v_j/w`, which is `q exp(i (w t - j sigma))` in a harmonic wave, the amplitude of the wave n is
-//!
-//! ```text
-//! a_n = |1/N sum_j z_j exp(+i j sigma_n)|
-//! ```
-//!
-//! exact for harmonic motion at w, otherwise right up to the difference between the wave's frequency and w, relative.
+//! Amplitudes of the waves of a ring at an instant, and over time; [`Spectrum`] has the formula.
 
 use crate::dynamics::State;
-use crate::model::NodalDiameter;
-use nalgebra::Complex;
+use crate::model::{NodalDiameter, Spectrum, Topology};
 
 /// Amplitudes by wave number 0 to N - 1 of the first `blades` oscillators, seen at angular frequency `w`.
 #[must_use]
 pub fn wave_amplitudes(state: &State, blades: usize, w: f64) -> Vec<f64> {
-    (0..blades)
-        .map(|n| {
-            let wave = NodalDiameter::new(n as i64, blades);
-            let blade = |j: usize| Complex::new(state.positions[j], -state.velocities[j] / w);
-            let sum: Complex<f64> =
-                (0..blades).map(|j| blade(j) * Complex::from_polar(1.0, wave.multiple(j as i64))).sum();
-            sum.norm() / blades as f64
-        })
-        .collect()
+    Spectrum::new(Topology::Ring, blades).amplitudes(&state.positions, &state.velocities, w)
 }
 
 /// The wave with the largest amplitude.
@@ -38,6 +21,7 @@ pub fn strongest(amplitudes: &[f64]) -> NodalDiameter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Complex;
 
     #[test]
     fn each_wave_is_found_in_its_own_direction_with_its_amplitude() {

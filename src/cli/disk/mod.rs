@@ -1,5 +1,6 @@
 //! `disk`: nonlinear analysis of the bladed disk of a scene.
 
+pub mod filmed;
 mod flutter;
 mod motion;
 mod waves;
