@@ -1,12 +1,36 @@
-//! Amplitudes of the waves of a ring at an instant, and over time; [`Spectrum`] has the formula.
+//! Amplitudes of the waves of a ring at an instant, and over time.
+//!
+//! Formula and its error: [`Spectrum`].
 
+use super::error::DiskError;
 use crate::dynamics::State;
-use crate::model::{NodalDiameter, Spectrum, Topology};
+use crate::model::{BladedDisk, NodalDiameter, Spectrum, Topology};
+use nalgebra::Complex;
 
 /// Amplitudes by wave number 0 to N - 1 of the first `blades` oscillators, seen at angular frequency `w`.
 #[must_use]
 pub fn wave_amplitudes(state: &State, blades: usize, w: f64) -> Vec<f64> {
-    Spectrum::new(Topology::Ring, blades).amplitudes(&state.positions, &state.velocities, w)
+    wave_amplitudes_at(state, &vec![w; blades])
+}
+
+/// The same with an angular frequency for each wave, by wave number 0 to N - 1; N is the number of frequencies.
+#[must_use]
+pub fn wave_amplitudes_at(state: &State, frequencies: &[f64]) -> Vec<f64> {
+    Spectrum::new(Topology::Ring, frequencies.to_vec()).amplitudes(&state.positions, &state.velocities)
+}
+
+/// Amplitudes by wave number of complex amplitudes `z_j`, one per blade, as averaging gives them.
+#[must_use]
+pub fn slow_wave_amplitudes(z: &[Complex<f64>]) -> Vec<f64> {
+    Spectrum::new(Topology::Ring, vec![1.0; z.len()]).amplitudes_of(|j, _| z[j])
+}
+
+/// [`BladedDisk::wave_frequencies`].
+///
+/// # Errors
+/// [`DiskError::Modes`] as there.
+pub fn wave_frequencies(disk: &BladedDisk) -> Result<Vec<f64>, DiskError> {
+    Ok(disk.wave_frequencies()?)
 }
 
 /// The wave with the largest amplitude.
@@ -21,7 +45,6 @@ pub fn strongest(amplitudes: &[f64]) -> NodalDiameter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Complex;
 
     #[test]
     fn each_wave_is_found_in_its_own_direction_with_its_amplitude() {

@@ -28,6 +28,11 @@ pub(super) fn find(chain: &OscillatorChain, from: &Instant, to: &Instant, events
     events[first..].sort_by(|a, b| a.time.total_cmp(&b.time));
 }
 
+/// The number of events from `from` to `to`.
+pub(super) fn count(chain: &OscillatorChain, from: &Instant, to: &Instant) -> usize {
+    chain.jenkins().iter().enumerate().map(|(index, element)| changes(element, index, from, to).len()).sum()
+}
+
 /// Kinds and places within the step, as fractions in [0, 1].
 fn changes(element: &JenkinsElement, index: usize, from: &Instant, to: &Instant) -> Vec<(EventKind, f64)> {
     let (before, after) = (from.contacts[index], to.contacts[index]);

@@ -3,6 +3,7 @@
 use super::force_law::{ForceLaw, Known, laws_of};
 use super::geometry::RigGeometry;
 use super::instant::Instant;
+use super::layout::Layout;
 use super::plant::{self, Blueprint, Carriages, Plant};
 use super::recorder::{Poses, Recorder, Recording};
 use super::settings::{EngineSettings, Scheme};
@@ -20,7 +21,7 @@ pub const DEFAULT_AMPLITUDE_BOUND: f64 = 1000.0;
 pub struct EngineFlow {
     chain: OscillatorChain,
     settings: EngineSettings,
-    geometry: RigGeometry,
+    layout: Arc<Layout>,
     laws: Vec<Arc<dyn ForceLaw>>,
     amplitude_bound: f64,
 }
@@ -32,7 +33,7 @@ impl EngineFlow {
         Ok(Self {
             chain: chain.clone(),
             settings: settings.validated()?,
-            geometry: RigGeometry::default(),
+            layout: Arc::new(Layout::rig(&RigGeometry::default(), chain.oscillators())),
             laws: laws_of(chain),
             amplitude_bound: DEFAULT_AMPLITUDE_BOUND,
         })
@@ -43,7 +44,13 @@ impl EngineFlow {
     /// # Errors
     /// [`EngineError::Parameter`] for sizes outside their range.
     pub fn with_geometry(self, geometry: RigGeometry) -> Result<Self, EngineError> {
-        Ok(Self { geometry: geometry.validated()?, ..self })
+        let layout = Layout::rig(&geometry.validated()?, self.chain.oscillators());
+        Ok(self.with_layout(layout))
+    }
+
+    /// With a mover for every oscillator.
+    pub(super) fn with_layout(self, layout: Layout) -> Self {
+        Self { layout: Arc::new(layout), ..self }
     }
 
     /// With another bound on |x|, finite and positive.
@@ -84,12 +91,16 @@ impl EngineFlow {
         self.run(initial, sampling, Poses::Keep)
     }
 
+    pub(super) fn amplitude_bound(&self) -> f64 {
+        self.amplitude_bound
+    }
+
     pub(super) fn chain(&self) -> &OscillatorChain {
         &self.chain
     }
 
-    pub(super) fn geometry(&self) -> RigGeometry {
-        self.geometry
+    pub(super) fn layout(&self) -> &Layout {
+        &self.layout
     }
 
     /// Slider forces of `to` from those of `from` and the positions of both.
@@ -144,7 +155,7 @@ pub(super) fn steps_for(sampling: Sampling, step: f64) -> Result<u64, EngineErro
 pub(super) struct Run<'a> {
     flow: &'a EngineFlow,
     plant: Box<dyn Plant>,
-    before: Instant,
+    pub(super) before: Instant,
     pub(super) now: Instant,
     force: Vec<f64>,
     acceleration: Vec<f64>,
@@ -261,7 +272,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn largest_amplitude(&self) -> f64 {
+    pub(super) fn largest_amplitude(&self) -> f64 {
         self.now.state.positions.iter().fold(0.0, |largest, x| largest.max(x.abs()))
     }
 }
@@ -271,7 +282,7 @@ fn build(flow: &EngineFlow, positions: &[f64], velocities: &[f64]) -> Result<Box
         masses: flow.chain.mass().as_slice(),
         positions,
         velocities,
-        geometry: flow.geometry,
+        layout: &flow.layout,
         settings: flow.settings,
         carriages: Carriages::Free,
     })

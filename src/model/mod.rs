@@ -15,6 +15,7 @@ mod prescribed;
 mod quantity;
 mod rig;
 mod scaling;
+mod sparse;
 
 pub use chain::OscillatorChain;
 pub use chain_builder::ChainBuilder;
@@ -32,3 +33,4 @@ pub use prescribed::PrescribedMotion;
 pub use quantity::{ParameterError, Range};
 pub use rig::{RigParameters, TwoMassRig};
 pub use scaling::{DimensionalRig, Scales};
+pub use sparse::SparseMatrix;

@@ -2,7 +2,7 @@
 
 use super::motion::start;
 use crate::dynamics::{Flow, Sampling, State, Trajectory};
-use crate::engine::{EngineFlow, EngineSettings, Recording};
+use crate::engine::{BladeMotion, DiskFlow, DiskGeometry, EngineSettings, Recording};
 use crate::exact::SparseFlow;
 use crate::model::OscillatorChain;
 use crate::scene::{Case, DiskCase};
@@ -28,7 +28,11 @@ pub fn in_engine(
         step < limit,
         "engine.dt = {step:e} is not allowed: it must be below {limit:e}, where the engine's integrator becomes unstable"
     );
-    Ok(EngineFlow::new(&chain, settings)?.with_amplitude_bound(case.amplitude_bound)?.record(initial, sampling)?)
+    // Along the axis, as they are drawn.
+    let geometry = DiskGeometry { motion: BladeMotion::Axial, ..DiskGeometry::default() };
+    let flow =
+        DiskFlow::new(&disk.disk, settings)?.with_geometry(geometry)?.with_amplitude_bound(case.amplitude_bound)?;
+    Ok(flow.record(initial, sampling)?)
 }
 
 /// The exact motion.

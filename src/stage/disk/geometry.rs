@@ -40,10 +40,10 @@ impl DiskGeometry {
         };
         // Many blades are short and stand on a large hub, so that they are apart.
         let hub_radius = if blades > 36 { 1.3 } else { 0.95 };
-        let chord = (0.78 * pitch * hub_radius).min(0.34);
+        let chord = (1.05 * pitch * hub_radius).min(0.34);
         let blade = Blade {
             length: TIP_RADIUS - hub_radius,
-            chord: [chord, 1.15 * chord],
+            chord: [chord, 1.2 * chord],
             thickness: [0.24 * chord, 0.1 * chord],
             stagger: [0.5, 1.0],
             stations: if blades > 36 { 6 } else { 9 },

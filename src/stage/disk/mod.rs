@@ -23,11 +23,11 @@ use panels::{Frame, Panels};
 use words::Words;
 
 /// Middle of the disk, half of the width and height that show all of it, and the camera's distance; drawing units.
-const MIDDLE: Vec3 = Vec3::new(0.0, 0.9, 0.0);
-const EXTENT: [f32; 2] = [2.85, 2.0];
+const MIDDLE: Vec3 = Vec3::new(0.0, 0.85, 0.0);
+const EXTENT: [f32; 2] = [2.8, 1.62];
 const DISTANCE: f32 = 10.0;
 /// From where a disk is seen unless its scene says.
-const VIEW: View = View { azimuth: -12.0, elevation: 34.0, zoom: 1.0, shift: [0.0; 3] };
+const VIEW: View = View { azimuth: -12.0, elevation: 36.0, zoom: 1.0, shift: [0.0; 3] };
 const SMALLEST: f64 = 1e-9;
 
 /// One film of a disk.

@@ -16,7 +16,7 @@ const HUB_HALF: f32 = 0.15;
 /// Radius of the line through the tips beyond them, and that of its zero.
 const LINE_BEYOND: f32 = 0.1;
 /// Light given off by a contact that sticks, and one that slips.
-const GLOW: [f32; 2] = [0.06, 0.95];
+const GLOW: [f32; 2] = [0.0, 0.45];
 /// Points of the line through the tips, at most.
 const MOST_POINTS: usize = 240;
 
@@ -131,7 +131,8 @@ impl DiskModel {
                     let transform = self.geometry.at(middle) * Affine3A::from_translation(radial);
                     push(objects, &self.shroud, transform, palette::SEAT);
                 }
-                let middle = self.geometry.place(radius, first + 0.5, 0.5 * (height(i) + height(j)));
+                let above = 0.5 * (height(i) + height(j)) + 0.035;
+                let middle = self.geometry.place(radius, first + 0.5, above);
                 push(objects, &self.pad, Affine3A::from_translation(middle), material);
             }
             Attachment::Ground(i) | Attachment::Between(i, _) => {
@@ -153,7 +154,7 @@ impl DiskModel {
         }
         let closed = self.geometry.next(blades - 1).is_some();
         let steps = (MOST_POINTS / blades).clamp(2, 12);
-        let mesh = Arc::new(wire(&smooth(&tips, steps, closed), 0.014, 5, closed));
+        let mesh = Arc::new(wire(&smooth(&tips, steps, closed), if blades > 36 { 0.008 } else { 0.014 }, 5, closed));
         let material = palette::glowing(self.palette.text, 0.25);
         objects.push(Object { mesh, transform: Affine3A::IDENTITY, material, casts_shadow: true });
     }

@@ -12,9 +12,9 @@ use glam::{Vec2, Vec3};
 
 /// Radius at which numbers stand, and that of the arrow of forward waves.
 const NUMBERS: f32 = TIP_RADIUS + 0.27;
-const ARROW: f32 = TIP_RADIUS + 0.52;
+const ARROW: f32 = TIP_RADIUS + 0.5;
 /// The arrow's ends, rad counter-clockwise from the right, and its points.
-const ARROW_ENDS: [f32; 2] = [-1.95, -1.2];
+const ARROW_ENDS: [f32; 2] = [-1.05, -0.45];
 const ARROW_POINTS: u32 = 16;
 
 #[derive(Debug, Clone)]
@@ -45,7 +45,7 @@ impl Words {
             palette,
             every,
             parameters: format!("{kind} of {} blades   κ = {}", disk.sectors, labels::short(disk.coupling)),
-            magnified: format!("deflection 1 drawn as {} blade lengths", labels::short(f64::from(unit))),
+            magnified: format!("deflection 1 drawn as {unit:.2} blade lengths"),
             place: if between && disk.segments.is_none() { "between neighbours" } else { "contacts" },
         }
     }
@@ -77,10 +77,10 @@ impl Words {
         }
     }
 
-    /// Counter-clockwise seen from above, in front of the disk.
+    /// Counter-clockwise seen from above, in front of the disk at the right.
     fn draw_arrow(&self, camera: &Camera, size: [u32; 2], out: &mut Vec<OverlayItem>) {
         let [from, to] = ARROW_ENDS;
-        let place = |angle: f32, radius: f32| Vec3::new(radius * angle.cos(), 0.5 * HEIGHT, -radius * angle.sin());
+        let place = |angle: f32, radius: f32| Vec3::new(radius * angle.cos(), HEIGHT, -radius * angle.sin());
         let at = |angle: f32, radius: f32| camera.project(place(angle, radius), size);
         let arc = (0..=ARROW_POINTS).map(|n| from + (to - from) * n as f32 / ARROW_POINTS as f32);
         let points: Option<Vec<Vec2>> = arc.map(|angle| at(angle, ARROW)).collect();
@@ -90,10 +90,10 @@ impl Words {
             .collect();
         let (Some(points), Some(head)) = (points, head) else { return };
         let colour = self.palette.masses[0];
-        let below = points[points.len() / 2] + Vec2::new(0.0, 20.0) * self.scale;
+        let beside = points[points.len() / 2] + Vec2::new(14.0, 12.0) * self.scale;
         out.push(OverlayItem::Line { points, stroke: Stroke { width: 2.4 * self.scale, colour }, clip: None });
         out.push(OverlayItem::Polygon { points: head, fill: colour, clip: None });
-        out.push(self.text(below, Anchor::Centre, 12.0, colour, "forward waves".to_owned()));
+        out.push(self.text(beside, Anchor::Left, 12.0, colour, "forward waves".to_owned()));
     }
 
     /// Contacts and time at the left, the disk and what is magnified at the right of the lines below the scene.

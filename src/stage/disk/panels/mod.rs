@@ -51,8 +51,15 @@ impl Frame<'_> {
         WaveNames { topology, blades, palette: self.palette }
     }
 
+    /// Waves of a ring are seen at their own frequencies with stuck contacts, modes of a chain all at that of the motion.
     fn spectrum(&self) -> Spectrum {
-        Spectrum::new(self.disk.topology, self.motion.blades())
+        let blades = self.motion.blades();
+        let same = || vec![self.motion.angular_frequency(); blades];
+        let frequencies = match self.disk.topology {
+            Topology::Ring => self.disk.wave_frequencies().unwrap_or_else(|_| same()),
+            Topology::Chain => same(),
+        };
+        Spectrum::new(self.disk.topology, frequencies)
     }
 }
 
@@ -90,10 +97,10 @@ impl WaveNames {
     }
 
     fn colour(&self, index: usize) -> Colour {
-        match self.direction(index) {
-            TravelDirection::Forward => self.palette.masses[0],
-            TravelDirection::Backward => self.palette.excitation,
-            TravelDirection::Standing => self.palette.damping,
+        match (self.topology, self.direction(index)) {
+            (Topology::Chain, _) | (_, TravelDirection::Forward) => self.palette.masses[0],
+            (_, TravelDirection::Backward) => self.palette.excitation,
+            (_, TravelDirection::Standing) => self.palette.damping,
         }
     }
 
@@ -161,7 +168,7 @@ impl Panels {
             match panel {
                 Drawn::Carpet(panel) => panel.draw(now, out),
                 Drawn::Spectrum(panel) => panel.draw(now, out),
-                Drawn::Waves(panel) => panel.draw(now, out),
+                Drawn::Waves(panel) => panel.draw(motion, now, out),
                 Drawn::Series(panel) => panel.draw(motion, now, out),
                 Drawn::Contact(panel) => panel.draw(motion, now, out),
                 Drawn::Ledger(panel) => panel.draw(motion, now, out),

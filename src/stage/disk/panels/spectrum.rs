@@ -17,17 +17,15 @@ pub(super) struct Bars {
     plot: Plot,
     names: WaveNames,
     spectrum: Spectrum,
-    angular_frequency: f64,
 }
 
 impl Bars {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let (motion, names, spectrum) = (frame.motion, frame.waves(), frame.spectrum());
-        let angular_frequency = motion.angular_frequency();
         let times = (0..=LOOKED_AT).map(|n| motion.end() * f64::from(n) / f64::from(LOOKED_AT));
         let largest = times
             .map(|time| motion.at(time))
-            .flat_map(|now| spectrum.amplitudes(&now.positions, &now.velocities, angular_frequency))
+            .flat_map(|now| spectrum.amplitudes(&now.positions, &now.velocities))
             .fold(1e-9, f64::max);
         let [first, last] = names.range();
         let axes = [Axis::exactly(first as f64 - 0.6, last as f64 + 0.6), Axis::exactly(0.0, 1.18 * largest)];
@@ -37,13 +35,13 @@ impl Bars {
         };
         let plot = frame.plot(place, title, [label, "amplitude"], axes);
         let x = Axis { tick: plot.x.tick.max(1.0).round(), ..plot.x };
-        Self { plot: Plot { x, ..plot }, names, spectrum, angular_frequency }
+        Self { plot: Plot { x, ..plot }, names, spectrum }
     }
 
     pub fn draw(&self, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
         let (plot, names) = (&self.plot, &self.names);
         plot.draw_frame(out);
-        let amplitudes = self.spectrum.amplitudes(&now.positions, &now.velocities, self.angular_frequency);
+        let amplitudes = self.spectrum.amplitudes(&now.positions, &now.velocities);
         let highest = strongest(&amplitudes);
         for (index, &amplitude) in amplitudes.iter().enumerate() {
             let middle = names.number(index) as f64;
