@@ -28,6 +28,10 @@ pub enum RendererName {
     Gl,
     /// A graphics driver that draws in software, such as lavapipe or llvmpipe.
     Software,
+    /// The same, through Vulkan.
+    SoftwareVulkan,
+    /// The same, through OpenGL.
+    SoftwareGl,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -113,6 +117,8 @@ impl RendererName {
             Self::Vulkan => RendererChoice::Vulkan,
             Self::Gl => RendererChoice::Gl,
             Self::Software => RendererChoice::Software,
+            Self::SoftwareVulkan => RendererChoice::SoftwareVulkan,
+            Self::SoftwareGl => RendererChoice::SoftwareGl,
         }
     }
 }
