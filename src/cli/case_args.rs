@@ -1,6 +1,6 @@
 //! Options that name or change a scene.
 
-use crate::scene::{Case, Initial, Joints, Precision, Scene, Scheme, Theme};
+use crate::scene::{Backdrop, Case, Initial, Joints, Precision, Scene, Scheme, Theme};
 use anyhow::{Context, ensure};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -121,6 +121,9 @@ pub struct FilmArgs {
     /// dark or light.
     #[arg(long, value_parser = parse_serde::<Theme>)]
     pub theme: Option<Theme>,
+    /// theme, or transparent: frames with alpha and no film.
+    #[arg(long, value_parser = parse_serde::<Backdrop>)]
+    pub background: Option<Backdrop>,
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
@@ -139,6 +142,7 @@ impl FilmArgs {
         film.fps = self.fps.unwrap_or(film.fps);
         film.speed = self.speed.unwrap_or(film.speed);
         film.theme = self.theme.unwrap_or(film.theme);
+        film.background = self.background.unwrap_or(film.background);
     }
 }
 

@@ -3,9 +3,9 @@
 use super::progress::Progress;
 use crate::dynamics::Trajectory;
 use crate::engine::{BodyPose, BodyRole, Recording, RigGeometry};
-use crate::film::{self, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
+use crate::film::{self, Encoder, Ffmpeg, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
 use crate::render::{AdapterInfo, Colour, DrawList, OverlayItem, Rectangle, Renderer, RendererChoice};
-use crate::scene::{Case, Film};
+use crate::scene::{Backdrop, Case, Film};
 use crate::stage::{Beside, Body, DiskMotion, DiskStage, Motion, Stage, Take};
 use crate::store::{OutputDir, sha256_hex};
 use anyhow::{Context, ensure};
@@ -28,6 +28,18 @@ pub enum RendererName {
     Gl,
     /// A graphics driver that draws in software, such as lavapipe or llvmpipe.
     Software,
+    /// The same, through Vulkan.
+    SoftwareVulkan,
+    /// The same, through OpenGL.
+    SoftwareGl,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum EncoderName {
+    /// The built-in one.
+    Openh264,
+    /// An installed ffmpeg with libx264: slower, and smaller files.
+    Ffmpeg,
 }
 
 #[derive(Debug, Args)]
@@ -46,6 +58,9 @@ pub struct DrawArgs {
     /// Draw frames this many times as wide and high and make them smaller: smoother edges for as much more time, squared.
     #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
     pub supersample: u32,
+    /// What makes film.mp4 of the frames.
+    #[arg(long, value_enum, default_value_t = EncoderName::Openh264)]
+    pub encoder: EncoderName,
 }
 
 /// `A:B`
@@ -72,14 +87,24 @@ impl DrawArgs {
     }
 
     /// Refuses frames beyond a film of `count`. Asked once before anything is written, and again of the motion, which may have ended
-    /// early.
+    /// early. Refuses an encoder that is not there.
     pub fn check(&self, count: u64) -> anyhow::Result<()> {
+        self.encoder()?;
         if let Some([k, n]) = self.shard {
             ensure!(n <= count, "--shard {k}/{n} is too small a part: the film has {count} frames");
         }
         let Some(Range { start, end }) = self.frames else { return Ok(()) };
         ensure!(end <= count, "--frames {start}:{end} is beyond the film: it has {count} frames");
         Ok(())
+    }
+}
+
+impl DrawArgs {
+    fn encoder(&self) -> anyhow::Result<Encoder> {
+        Ok(match self.encoder {
+            EncoderName::Openh264 => Encoder::OpenH264,
+            EncoderName::Ffmpeg => Encoder::Ffmpeg(Ffmpeg::find()?),
+        })
     }
 }
 
@@ -92,6 +117,8 @@ impl RendererName {
             Self::Vulkan => RendererChoice::Vulkan,
             Self::Gl => RendererChoice::Gl,
             Self::Software => RendererChoice::Software,
+            Self::SoftwareVulkan => RendererChoice::SoftwareVulkan,
+            Self::SoftwareGl => RendererChoice::SoftwareGl,
         }
     }
 }
@@ -136,7 +163,8 @@ impl FrameSource for Source {
         let (stage, number) = self.locate(index).ok_or("the film has fewer frames")?;
         let mut list = stage.frame(number);
         let darkness = self.darkness(stage, number, index);
-        if darkness > 0.0 {
+        // Before nothing there is nothing to fade to: scenes are cut.
+        if darkness > 0.0 && !list.background.is_transparent() {
             let [width, height] = self.size.map(|side| side as f32);
             list.overlay.push(OverlayItem::Box {
                 area: Rectangle { min: Vec2::ZERO, max: Vec2::new(width, height) },
@@ -255,12 +283,17 @@ pub fn make(
     let selected = args.selected(source.count());
     let mut renderer = renderer(args, progress)?;
     let adapter = renderer.info().clone();
+    let is_clear = film.background == Backdrop::Transparent;
+    if is_clear {
+        progress.say("transparent background: frames with alpha and no film, for H.264 has no alpha");
+    }
     let settings = FilmSettings {
         size: [film.width, film.height],
         frames_per_second: film.fps,
         supersampling: args.supersample,
         frames: selected.clone(),
-        video: if selected.is_some() { Video::None } else { Video::Whole },
+        video: if selected.is_some() || is_clear { Video::None } else { Video::Whole },
+        encoder: args.encoder()?,
         ..FilmSettings::default()
     };
     let report = film::produce(&settings, output, renderer.as_mut(), &source, &mut |at| progress.frame(at))?;

@@ -4,6 +4,7 @@ use super::Verdict;
 use super::common::print;
 use super::film::parse_frames;
 use crate::film::{animated_png, contact_sheet, encode_png, gif, scaled};
+use crate::render::has_transparency;
 use crate::store::{read_whole, write_atomically};
 use anyhow::{Context, bail, ensure};
 use clap::Args;
@@ -106,6 +107,9 @@ pub fn animate(args: &AnimateArgs) -> anyhow::Result<Verdict> {
     let delay = (args.every, film.frames_per_second);
     let extension = args.output.extension().map(|extension| extension.to_ascii_lowercase());
     let bytes = match extension.as_ref().and_then(|extension| extension.to_str()) {
+        Some("gif") if frames.iter().any(has_transparency) => {
+            bail!("the frames are translucent, which GIF cannot show: end the name of the loop in .png")
+        }
         Some("gif") => gif(&frames, delay).context("the loop could not be encoded as GIF")?,
         Some("png" | "apng") => animated_png(&frames, delay).context("the loop could not be encoded as PNG")?,
         _ => bail!("{} says no format: end its name in .gif or .png", args.output.display()),

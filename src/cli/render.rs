@@ -141,6 +141,7 @@ impl RenderArgs {
         film.fps = self.input.film.fps.unwrap_or(film.fps);
         film.speed = self.input.film.speed.unwrap_or(film.speed);
         film.theme = self.input.film.theme.unwrap_or(film.theme);
+        film.background = self.input.film.background.unwrap_or(film.background);
         let case = case.refilmed(film, &path.display().to_string())?;
         let shown = Shown::of(&case, &trajectory)?;
         Ok((case, shown))

@@ -1,5 +1,7 @@
 //! Short loops for pages that show pictures but play no video: GIF and animated PNG; and pictures of several frames side by side.
 
+use super::picture;
+use crate::render::{has_transparency, premultiply, straighten};
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::imageops::{FilterType, overlay, resize};
 use image::{Delay, Frame, ImageResult, Rgba, RgbaImage};
@@ -13,10 +15,17 @@ const PAPER: Rgba<u8> = Rgba([0x10, 0x16, 0x1d, 255]);
 #[must_use]
 pub fn scaled(image: &RgbaImage, width: u32) -> RgbaImage {
     let height = (f64::from(image.height()) * f64::from(width) / f64::from(image.width())).round().max(1.0);
-    resize(image, width.max(1), height as u32, FilterType::Lanczos3)
+    if !has_transparency(image) {
+        return resize(image, width.max(1), height as u32, FilterType::Lanczos3);
+    }
+    let mut image = image.clone();
+    premultiply(&mut image);
+    let mut image = resize(&image, width.max(1), height as u32, FilterType::Lanczos3);
+    straighten(&mut image);
+    image
 }
 
-/// An endless loop as animated PNG, lossless; each picture stands for `delay.0 / delay.1` seconds. All pictures have one size.
+/// An endless loop as animated PNG, lossless, alpha included; each picture stands for `delay.0 / delay.1` seconds. All pictures have one size.
 ///
 /// # Errors
 /// For no pictures, and pictures of different sizes.
@@ -24,7 +33,8 @@ pub fn animated_png(frames: &[RgbaImage], delay: (u16, u16)) -> Result<Vec<u8>, 
     let [width, height] = frames.first().map_or([0, 0], |frame| [frame.width(), frame.height()]);
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
-    encoder.set_color(ColorType::Rgb);
+    let is_clear = frames.iter().any(has_transparency);
+    encoder.set_color(if is_clear { ColorType::Rgba } else { ColorType::Rgb });
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::High);
     encoder.set_filter(Filter::Adaptive);
@@ -32,8 +42,11 @@ pub fn animated_png(frames: &[RgbaImage], delay: (u16, u16)) -> Result<Vec<u8>, 
     encoder.set_frame_delay(delay.0, delay.1)?;
     let mut writer = encoder.write_header()?;
     for frame in frames {
-        let rgb: Vec<u8> = frame.pixels().flat_map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2]]).collect();
-        writer.write_image_data(&rgb)?;
+        if is_clear {
+            writer.write_image_data(frame.as_raw())?;
+        } else {
+            writer.write_image_data(&picture::rgb(frame))?;
+        }
     }
     writer.finish()?;
     Ok(bytes)
@@ -113,5 +126,18 @@ mod tests {
     fn scaled_pictures_keep_their_proportions() {
         assert_eq!(scaled(&frames()[0], 10).dimensions(), (10, 5));
         assert_eq!(*scaled(&frames()[1], 10).get_pixel(5, 2), Rgba([0, 255, 0, 255]));
+    }
+
+    /// Red before nothing, where the colour of what is clear is green: no green comes in, and the loop keeps the alpha.
+    #[test]
+    fn transparent_pictures_keep_colour_and_alpha() {
+        let half = RgbaImage::from_fn(20, 10, |x, _| Rgba(if x < 11 { [255, 0, 0, 255] } else { [0, 255, 0, 0] }));
+        let small = scaled(&half, 10);
+        assert!(small.pixels().any(|p| (1..255).contains(&p.0[3])));
+        assert!(small.pixels().all(|p| p.0[3] < 8 || (p.0[0] > 240 && p.0[1] == 0)), "{small:?}");
+        let bytes = animated_png(&[half.clone(), half.clone()], (1, 10)).unwrap();
+        let found =
+            PngDecoder::new(Cursor::new(bytes)).unwrap().apng().unwrap().into_frames().collect_frames().unwrap();
+        assert_eq!(found[1].buffer(), &half);
     }
 }

@@ -37,6 +37,13 @@ pub enum FilmError {
     FrameChanged { path: PathBuf, reason: String },
     #[error("frame {index} could not be encoded as {format}: {reason}")]
     Encode { index: u64, format: &'static str, reason: String },
+    #[error(
+        "no ffmpeg can be used ({reason}): install it so that `ffmpeg` is on the search path, or leave the film to the built-in encoder \
+         with --encoder openh264"
+    )]
+    NoFfmpeg { reason: String },
+    #[error("ffmpeg could not make the film ({reason}): the frames are kept; run again, or with --encoder openh264")]
+    Ffmpeg { reason: String },
     #[error(transparent)]
     Store(#[from] StoreError),
 }

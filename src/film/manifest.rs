@@ -1,8 +1,9 @@
 //! `frames.json`: what the frames are. It says nothing about the run that made them, so that it is the same after any interruption.
 
 use super::error::FilmError;
-use super::plan::{Finished, frame_name};
+use super::plan::{Plan, frame_name};
 use super::settings::FilmSettings;
+use super::video::Encoding;
 use super::{FrameSource, FrameState};
 use crate::render::AdapterInfo;
 use crate::store::{OutputDir, sha256_hex};
@@ -19,7 +20,16 @@ struct Manifest<'a> {
     frames_per_second: u32,
     backend: &'a str,
     adapter: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    film: Option<Film<'a>>,
     frames: Vec<Frame<'a>>,
+}
+
+#[derive(Serialize)]
+struct Film<'a> {
+    file: &'a str,
+    #[serde(flatten)]
+    encoding: Encoding,
 }
 
 #[derive(Serialize)]
@@ -40,13 +50,13 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// Writes the list of all finished frames, unless it is there already.
+/// Writes the list of all finished frames and how the film is encoded, unless it is there already.
 pub(super) fn write(
     settings: &FilmSettings,
     output: &OutputDir,
     adapter: &AdapterInfo,
     source: &dyn FrameSource,
-    finished: &Finished,
+    plan: &Plan,
 ) -> Result<(), FilmError> {
     let manifest = Manifest {
         stickslip: env!("CARGO_PKG_VERSION"),
@@ -56,7 +66,8 @@ pub(super) fn write(
         frames_per_second: settings.frames_per_second,
         backend: &adapter.backend,
         adapter: &adapter.adapter,
-        frames: finished.iter().map(|(&index, sha256)| Frame::new(index, sha256, settings, source)).collect(),
+        film: plan.film.as_ref().map(|film| Film { file: &film.name, encoding: Encoding::of(settings) }),
+        frames: plan.finished.iter().map(|(&index, sha256)| Frame::new(index, sha256, settings, source)).collect(),
     };
     let failed = |error: serde_json::Error| FilmError::Encode { index: 0, format: "JSON", reason: error.to_string() };
     let mut text = serde_json::to_vec_pretty(&manifest).map_err(failed)?;

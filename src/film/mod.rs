@@ -9,22 +9,25 @@
 //! parameters, the device and this program's version only: neither on threads nor on interruptions.
 
 mod animation;
-mod encode;
 mod error;
+mod ffmpeg;
+mod h264;
 mod manifest;
 mod picture;
 mod pipeline;
 mod plan;
 mod report;
 mod settings;
+mod video;
 mod yuv;
 
 pub use animation::{animated_png, contact_sheet, gif, scaled};
 pub use error::{FilmError, SourceError};
+pub use ffmpeg::Ffmpeg;
 pub use picture::encode as encode_png;
 pub use pipeline::produce;
 pub use report::{FilmReport, Progress, StageTimes};
-pub use settings::{FilmSettings, Video};
+pub use settings::{Encoder, FilmSettings, Video};
 
 use crate::render::DrawList;
 use serde::Serialize;

@@ -4,11 +4,11 @@
 //! by the stage that has it.
 
 use super::FrameSource;
-use super::encode::{Film, VideoEncoder};
 use super::error::FilmError;
 use super::plan::{Finished, Plan, frame_name};
 use super::report::{FilmReport, Progress, StageTimes};
 use super::settings::FilmSettings;
+use super::video::{Film, VideoEncoder};
 use super::{manifest, picture};
 use crate::render::{DrawList, Renderer, shrunk};
 use crate::store::{OutputDir, read_whole};
@@ -63,7 +63,7 @@ pub fn produce(
             times.encode_video += begin.elapsed();
         }
     }
-    manifest::write(settings, output, &adapter, source, &plan.finished)?;
+    manifest::write(settings, output, &adapter, source, &plan)?;
 
     let film = plan.film.as_ref().map(|film| output.path().join(&film.name));
     let pictures = plan.selected.clone().map(|index| output.path().join(frame_name(index)));
@@ -94,7 +94,7 @@ fn run_stages(
     thread::scope(|scope| {
         let (to_store, drawn) = sync_channel(QUEUE);
         let (to_video, stored) = sync_channel(QUEUE);
-        let video = plan.film.as_ref().map(|_| scope.spawn(|| encode_video(settings, stored)));
+        let video = plan.film.as_ref().map(|_| scope.spawn(|| encode_video(settings, output, stored)));
         let to_video = video.is_some().then_some(to_video);
         let storing = scope.spawn(move || store_pictures(settings, output, plan, drawn, to_video));
 
@@ -221,13 +221,19 @@ fn load(settings: &FilmSettings, output: &OutputDir, index: u64) -> Result<RgbaI
 }
 
 /// Third stage.
-fn encode_video(settings: &FilmSettings, pictures: Receiver<(u64, RgbaImage)>) -> Result<(Film, Duration), FilmError> {
-    let mut encoder = VideoEncoder::new(settings)?;
+fn encode_video(
+    settings: &FilmSettings,
+    output: &OutputDir,
+    pictures: Receiver<(u64, RgbaImage)>,
+) -> Result<(Film, Duration), FilmError> {
+    let mut encoder = VideoEncoder::new(settings, output)?;
     let mut spent = Duration::ZERO;
     for (index, image) in pictures {
         let begin = Instant::now();
         encoder.push(index, &image)?;
         spent += begin.elapsed();
     }
-    Ok((encoder.into_film(settings.video_size()), spent))
+    let begin = Instant::now();
+    let film = encoder.finish(settings)?;
+    Ok((film, spent + begin.elapsed()))
 }

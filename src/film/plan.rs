@@ -3,6 +3,7 @@
 use super::FrameSource;
 use super::error::FilmError;
 use super::settings::{FilmSettings, Video};
+use super::video::Encoding;
 use crate::render::AdapterInfo;
 use crate::store::{OutputDir, sha256_hex};
 use std::collections::BTreeMap;
@@ -76,6 +77,6 @@ impl FilmPlan {
     pub fn key(&self, settings: &FilmSettings, finished: &Finished) -> String {
         let frames: Vec<_> = finished.range(self.frames.clone()).map(|(_, sum)| sum.as_str()).collect();
         let sum = sha256_hex(frames.join("\n").as_bytes());
-        format!("frames {sum}, {} per second, quantiser {}", settings.frames_per_second, settings.quantiser)
+        format!("frames {sum}, {} per second, {}", settings.frames_per_second, Encoding::of(settings).key())
     }
 }

@@ -39,11 +39,18 @@ pub struct DrawList {
     pub overlay: Vec<OverlayItem>,
 }
 
-/// Vertical gradient behind the scene.
+/// Vertical gradient behind the scene; where both colours have alpha 0 the picture is clear there, and surfaces fade into nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Background {
     pub top: Colour,
     pub bottom: Colour,
+}
+
+impl Background {
+    #[must_use]
+    pub fn is_transparent(&self) -> bool {
+        self.top.0[3] == 0 && self.bottom.0[3] == 0
+    }
 }
 
 /// Perspective camera.
@@ -86,7 +93,8 @@ pub struct Object {
 /// Simple physically motivated material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
-    /// Its alpha plays no part: objects are opaque.
+    /// Objects are opaque, but for one thing: with alpha 0 before a transparent background only the shadows on the surface show, as
+    /// translucent black.
     pub colour: Colour,
     /// 0 mirror-like to 1 dull.
     pub roughness: f32,

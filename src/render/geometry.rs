@@ -11,22 +11,27 @@ pub(crate) struct Surface {
     pub colour: Vec3,
     pub roughness: f32,
     pub metallic: f32,
+    /// [`SHADOW_ONLY`] where nothing but shadows shows.
     pub glow: f32,
 }
 
-impl From<&Material> for Surface {
-    fn from(material: &Material) -> Self {
+/// Stands in the place of a glow.
+const SHADOW_ONLY: f32 = -1.0;
+
+impl Surface {
+    fn new(material: &Material, before_nothing: bool) -> Self {
+        let is_clear = before_nothing && material.colour.0[3] == 0;
         Self {
             colour: linear(material.colour.0),
             // Below this the highlight is smaller than a pixel and only flickers.
             roughness: material.roughness.clamp(0.08, 1.0),
             metallic: material.metallic.clamp(0.0, 1.0),
-            glow: material.glow.max(0.0),
+            glow: if is_clear { SHADOW_ONLY } else { material.glow.max(0.0) },
         }
     }
 }
 
-/// Linear light of an sRGB colour; its alpha plays no part in the scene.
+/// Linear light of an sRGB colour, without its alpha.
 pub(crate) fn linear([r, g, b, _]: [u8; 4]) -> Vec3 {
     Vec3::new(decode(r), decode(g), decode(b))
 }
@@ -54,7 +59,9 @@ impl Geometry {
         let mut geometry = Self::default();
         for casting in [true, false] {
             for (index, object) in list.objects.iter().enumerate().filter(|(_, o)| o.casts_shadow == casting) {
-                geometry.add(object).map_err(|problem| RenderError::Mesh { object: index, problem })?;
+                geometry
+                    .add(object, list.background.is_transparent())
+                    .map_err(|problem| RenderError::Mesh { object: index, problem })?;
             }
             if casting {
                 geometry.casting = geometry.triangles.len();
@@ -63,7 +70,7 @@ impl Geometry {
         Ok(geometry)
     }
 
-    fn add(&mut self, object: &Object) -> Result<(), &'static str> {
+    fn add(&mut self, object: &Object, before_nothing: bool) -> Result<(), &'static str> {
         let (mesh, first) = (&object.mesh, self.vertices.len() as u32);
         if mesh.positions.len() != mesh.normals.len() {
             return Err("as many normals as positions are needed");
@@ -92,7 +99,7 @@ impl Geometry {
             let [b, c] = if mirrored { [c, b] } else { [b, c] };
             self.triangles.push([a + first, b + first, c + first]);
         }
-        self.surfaces.push(Surface::from(&object.material));
+        self.surfaces.push(Surface::new(&object.material, before_nothing));
         Ok(())
     }
 }
@@ -113,7 +120,7 @@ mod tests {
     fn a_mirrored_body_still_faces_outwards() {
         for scale in [Vec3::new(1.0, 2.0, 0.5), Vec3::new(-1.0, 2.0, 0.5)] {
             let mut geometry = Geometry::default();
-            geometry.add(&object(Affine3A::from_scale(scale))).unwrap();
+            geometry.add(&object(Affine3A::from_scale(scale)), false).unwrap();
             for &triangle in &geometry.triangles {
                 let [a, b, c] = triangle.map(|i| geometry.vertices[i as usize].position);
                 let face = (b - a).cross(c - a);
@@ -126,9 +133,9 @@ mod tests {
     #[test]
     fn broken_meshes_are_refused() {
         let mut geometry = Geometry::default();
-        assert!(geometry.add(&object(Affine3A::from_translation(Vec3::X * f32::NAN))).is_err());
+        assert!(geometry.add(&object(Affine3A::from_translation(Vec3::X * f32::NAN)), false).is_err());
         let mut broken = object(Affine3A::IDENTITY);
         Arc::make_mut(&mut broken.mesh).triangles.push([0, 1, 999]);
-        assert!(geometry.add(&broken).is_err());
+        assert!(geometry.add(&broken, false).is_err());
     }
 }

@@ -1,5 +1,6 @@
 //! Drawing without a window: knows shapes, lines and text, and no physics.
 
+mod alpha;
 mod cpu;
 mod draw_list;
 mod error;
@@ -15,6 +16,7 @@ pub mod shapes;
 mod shrink;
 mod view;
 
+pub use alpha::{has_transparency, premultiply, straighten};
 pub use cpu::CpuRenderer;
 pub use draw_list::{
     Anchor, Background, Camera, Colour, DrawList, Light, Material, Mesh, Object, OverlayItem, Rectangle, Stroke,

@@ -27,7 +27,7 @@ pub struct DrawTimes {
 pub trait Renderer: Send {
     fn info(&self) -> &AdapterInfo;
 
-    /// Draws one frame, opaque sRGB, `list.size` pixels.
+    /// Draws one frame, sRGB, `list.size` pixels; opaque, or with straight alpha where the background is transparent.
     ///
     /// # Errors
     /// If the size is zero or beyond what the back end can do, or the device fails.

@@ -179,6 +179,17 @@ pub enum Theme {
     Light,
 }
 
+/// What is behind the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Backdrop {
+    /// The backdrop and floor of the theme.
+    #[default]
+    Theme,
+    /// Nothing: frames with alpha, shadows as translucent black. They make no video, which has no alpha.
+    Transparent,
+}
+
 /// How the motion is filmed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -192,10 +203,11 @@ pub struct Film {
     /// Time of the motion that passes in one second of film.
     pub speed: f64,
     pub theme: Theme,
+    pub background: Backdrop,
 }
 
 impl Default for Film {
     fn default() -> Self {
-        Self { width: 1280, height: 720, fps: 30, speed: 8.0, theme: Theme::default() }
+        Self { width: 1280, height: 720, fps: 30, speed: 8.0, theme: Theme::default(), background: Backdrop::default() }
     }
 }

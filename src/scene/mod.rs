@@ -10,7 +10,9 @@ mod ramp;
 mod story;
 
 pub use case::Case;
-pub use description::{Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation, Theme};
+pub use description::{
+    Backdrop, Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation, Theme,
+};
 pub use direction::{CameraMove, Caption, Direction, Easing, Key, Panel, SlowMotion, View};
 pub use disk::{DiskCase, DiskStart, WaveStart};
 pub use error::{Fault, Place, SceneError};

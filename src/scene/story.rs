@@ -59,7 +59,7 @@ impl Story {
         };
         let cases = self.scene.iter().enumerate().map(|(n, s)| s.checked(&of(n))).collect::<Result<Vec<Case>, _>>()?;
         let Some(first) = cases.first() else { return Err(refuse(0, "scene", Fault::EmptyStory)) };
-        let format = |case: &Case| (case.film.width, case.film.height, case.film.fps);
+        let format = |case: &Case| (case.film.width, case.film.height, case.film.fps, case.film.background);
         match cases.iter().position(|case| format(case) != format(first)) {
             Some(number) => Err(refuse(number, "film", Fault::OtherFormat)),
             None => Ok(cases),

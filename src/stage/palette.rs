@@ -3,7 +3,7 @@
 
 use crate::model::ContactState;
 use crate::render::{Background, Colour, Light, Material};
-use crate::scene::Theme;
+use crate::scene::{self, Theme};
 use glam::Vec3;
 
 /// Everything a theme decides.
@@ -81,6 +81,17 @@ impl Palette {
             Theme::Dark => DARK,
             Theme::Light => LIGHT,
         }
+    }
+
+    /// The same before a background of the scene's choice.
+    #[must_use]
+    pub fn before(mut self, background: scene::Backdrop) -> Self {
+        if background == scene::Backdrop::Transparent {
+            let Background { top, bottom } = self.backdrop;
+            self.backdrop = Background { top: top.with_alpha(0.0), bottom: bottom.with_alpha(0.0) };
+            self.floor.colour = self.floor.colour.with_alpha(0.0);
+        }
+        self
     }
 
     /// Colour of a contact state, the same wherever it is shown.

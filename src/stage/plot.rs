@@ -54,6 +54,10 @@ impl Axis {
         (-self.tick.log10().floor()).clamp(0.0, 9.0) as usize
     }
 
+    fn written(self, tick: f64) -> String {
+        format!("{tick:.*}", self.decimals()).replace('-', "−")
+    }
+
     fn part(self, value: f64) -> f32 {
         ((value - self.min) / (self.max - self.min)) as f32
     }
@@ -68,9 +72,6 @@ fn round_tick(wanted: f64) -> f64 {
         .find(|tick| *tick >= wanted * (1.0 - 1e-12))
         .unwrap_or(10.0 * decade)
 }
-
-/// Panels let a little of the scene through.
-pub const PANEL_ALPHA: f32 = 0.95;
 
 /// A plot: where it is, and what its axes mean.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,7 +117,7 @@ impl Plot {
         out.push(OverlayItem::Box {
             area: self.panel,
             corner_radius: 8.0 * self.scale,
-            fill: self.palette.panel.with_alpha(PANEL_ALPHA),
+            fill: self.palette.panel,
             stroke: Some(self.stroke(1.0, self.palette.panel_edge)),
         });
         // The label of the x axis stands at the right end of the tick labels, which leave it room.
@@ -125,13 +126,13 @@ impl Plot {
             self.draw_rule([self.pixel(value, self.y.min), self.pixel(value, self.y.max)], value == 0.0, out);
             let place = self.pixel(value, self.y.min) + Vec2::new(0.0, 14.0) * self.scale;
             if place.x < room {
-                out.push(self.text(place, Anchor::Centre, format!("{value:.*}", self.x.decimals())));
+                out.push(self.text(place, Anchor::Centre, self.x.written(value)));
             }
         }
         for value in self.y.ticks() {
             self.draw_rule([self.pixel(self.x.min, value), self.pixel(self.x.max, value)], value == 0.0, out);
             let place = self.pixel(self.x.min, value) + Vec2::new(-6.0, 3.5) * self.scale;
-            out.push(self.text(place, Anchor::Right, format!("{value:.*}", self.y.decimals())));
+            out.push(self.text(place, Anchor::Right, self.y.written(value)));
         }
         self.draw_labels(out);
     }
@@ -178,6 +179,35 @@ impl Plot {
             radius: 4.5 * self.scale,
             fill: colour,
             stroke: Some(self.stroke(1.5, self.palette.text)),
+        });
+    }
+
+    /// The current point where its value is beyond the upper end: a tip that points there.
+    pub fn draw_beyond(&self, x: f64, colour: Colour, out: &mut Vec<OverlayItem>) {
+        let tip = self.pixel(x, self.y.max);
+        let points = [[0.0, 0.0], [6.5, 10.0], [-6.5, 10.0]].map(|shift| tip + Vec2::from(shift) * self.scale);
+        out.push(OverlayItem::Polygon { points: points.to_vec(), fill: colour, clip: None });
+        let outline = points.into_iter().chain([tip]).collect();
+        out.push(OverlayItem::Line { points: outline, stroke: self.stroke(1.5, self.palette.text), clip: None });
+    }
+
+    /// A small word beside a data point.
+    pub fn draw_word(
+        &self,
+        [x, y]: [f64; 2],
+        shift: Vec2,
+        anchor: Anchor,
+        word: &str,
+        colour: Colour,
+        out: &mut Vec<OverlayItem>,
+    ) {
+        out.push(OverlayItem::Text {
+            position: self.pixel(x, y) + shift * self.scale,
+            anchor,
+            size: 10.0 * self.scale,
+            colour,
+            bold: false,
+            text: word.to_owned(),
         });
     }
 

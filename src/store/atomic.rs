@@ -46,7 +46,7 @@ pub(super) fn create_directory(directory: &Path) -> Result<(), StoreError> {
 }
 
 /// A temporary with the permissions of an ordinary new file, locked so that another run does not take it for a leftover.
-fn create_temporary(directory: &Path) -> io::Result<NamedTempFile> {
+pub(super) fn create_temporary(directory: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
     builder.prefix(TEMPORARY_PREFIX);
     #[cfg(unix)]

@@ -3,7 +3,7 @@
 //! `manifest.json` says what made the directory, `outputs.jsonl` which files are in it. The directory is locked while open, so
 //! that two runs cannot mix their files; the lock dies with the process.
 
-use super::atomic::{create_directory, read_whole, remove_leftovers, write_atomically};
+use super::atomic::{create_directory, create_temporary, read_whole, remove_leftovers, write_atomically};
 use super::error::StoreError;
 use super::journal::{self, Journal, Record, check_name};
 use super::{hex, sha256_hex};
@@ -15,6 +15,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::NamedTempFile;
 
 const MANIFEST: &str = "manifest.json";
 const JOURNAL: &str = "outputs.jsonl";
@@ -154,6 +155,15 @@ impl OutputDir {
         let record = Record { path: name.to_owned(), key: key.to_owned(), sha256: hex(&digest.finalize()), bytes };
         self.journal().finish(&record)?;
         Ok(record)
+    }
+
+    /// A temporary file in the directory for a program that writes by itself. It is removed when dropped, or when the directory is
+    /// opened after a crash.
+    ///
+    /// # Errors
+    /// [`StoreError::Write`] as in [`write_atomically`].
+    pub fn temporary(&self) -> Result<NamedTempFile, StoreError> {
+        create_temporary(&self.root).map_err(|source| StoreError::write(&self.root, source))
     }
 
     /// The record of a finished file, if it was made under the same `key` and its bytes are still the recorded ones.

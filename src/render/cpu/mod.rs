@@ -55,8 +55,13 @@ impl CpuRenderer {
         let projected = Projected::new(&geometry, &camera, list.size);
         self.bins.sort(&projected.triangles, list.size);
         let lighting = Lighting::new(list, &self.shadow);
-        let frame = Frame { projected: &projected, surfaces: &geometry.surfaces, lighting };
-        let backdrop = backdrop(&list.background, list.size[1]);
+        let is_clear = list.background.is_transparent();
+        let frame = Frame { projected: &projected, surfaces: &geometry.surfaces, lighting, is_clear };
+        let backdrop = if is_clear {
+            vec![BackdropRow::CLEAR; list.size[1] as usize]
+        } else {
+            backdrop(&list.background, list.size[1])
+        };
         let mut image = RgbaImage::new(list.size[0], list.size[1]);
         let row_bytes = 4 * list.size[0] as usize;
         image.par_chunks_mut(TILE_HEIGHT * row_bytes).enumerate().for_each_init(Tile::default, |tile, (band, rows)| {
@@ -80,7 +85,7 @@ impl Renderer for CpuRenderer {
         let start = Instant::now();
         let mut image = self.draw_scene(list)?;
         let drawn = Instant::now();
-        self.overlay.blend(&list.overlay, &mut image)?;
+        self.overlay.blend(list, &mut image)?;
         Ok((image, DrawTimes { draw: drawn - start, overlay: drawn.elapsed(), ..DrawTimes::default() }))
     }
 }
@@ -90,6 +95,11 @@ impl Renderer for CpuRenderer {
 struct BackdropRow {
     bytes: [u8; 4],
     light: Vec3,
+}
+
+impl BackdropRow {
+    /// Of a transparent background.
+    const CLEAR: Self = Self { bytes: [0; 4], light: Vec3::ZERO };
 }
 
 /// The gradient runs evenly in sRGB, which is even to the eye.

@@ -1,6 +1,6 @@
 //! Light of four points of surfaces: sun with GGX highlight and shadow, hemisphere, tone mapping. The same as `gpu/scene.wgsl`.
 
-use super::lanes::{Lanes3, fifth_power, smoothstep};
+use super::lanes::{Lanes3, fifth_power, smoothstep, square_root};
 use super::shadow::ShadowMap;
 use crate::render::draw_list::DrawList;
 use crate::render::geometry::linear;
@@ -29,6 +29,13 @@ pub(super) struct Lighting<'a> {
     centre: Lanes3,
     radius: f32,
     shadow: &'a ShadowMap,
+}
+
+/// Whether surfaces are lit with the shadows on them.
+#[derive(Debug, Clone, Copy)]
+enum Shadows {
+    Cast,
+    LeftOut,
 }
 
 /// How a point stands to eye and sun; all vectors are unit vectors.
@@ -61,11 +68,29 @@ impl<'a> Lighting<'a> {
         if fade == Vec4::ONE {
             return backdrop;
         }
-        let colour = tone_map(self.reflected(points) + points.colour * points.glow);
+        let colour = tone_map(self.reflected(points, Shadows::Cast) + points.colour * points.glow);
         colour.towards(backdrop, fade)
     }
 
-    fn reflected(&self, points: &Points) -> Lanes3 {
+    /// Tone mapped linear light times opacity, and opacity, of points with nothing behind them. A surface with a glow below 0 shows its
+    /// shadow alone: black, so opaque that it darkens the surface's own colour without shadow to the one with it.
+    pub fn shade_before_nothing(&self, points: &Points) -> (Lanes3, Vec4) {
+        let distance = (points.position - self.centre).length() / self.radius;
+        let near = Vec4::ONE - smoothstep(Vec4::splat(FADE[0]), Vec4::splat(FADE[1]), distance);
+        let glow = points.glow.max(Vec4::ZERO);
+        let colour = tone_map(self.reflected(points, Shadows::Cast) + points.colour * glow);
+        let is_clear = points.glow.cmplt(Vec4::ZERO);
+        if !is_clear.any() {
+            return (colour * near, near);
+        }
+        let bright = tone_map(self.reflected(points, Shadows::LeftOut));
+        let kept = brightness(colour) / brightness(bright).max(Vec4::splat(1e-3));
+        let dark = (Vec4::ONE - kept).clamp(Vec4::ZERO, Vec4::ONE) * near;
+        let light = colour * Vec4::select(is_clear, Vec4::ZERO, near);
+        (light, Vec4::select(is_clear, dark, near))
+    }
+
+    fn reflected(&self, points: &Points, shadows: Shadows) -> Lanes3 {
         let normal = points.normal.normalize();
         let view = (self.eye - points.position).normalize();
         let facing_eye = normal.dot(view);
@@ -75,7 +100,10 @@ impl<'a> Lighting<'a> {
             facing_eye: facing_eye.max(Vec4::splat(1e-3)),
             facing_sun: normal.dot(self.towards).max(Vec4::ZERO),
         };
-        let lit = self.shadow.lit(points.position, normal, stand.facing_sun);
+        let lit = match shadows {
+            Shadows::Cast => self.shadow.lit(points.position, normal, stand.facing_sun),
+            Shadows::LeftOut => Vec4::ONE,
+        };
         let matt = points.colour * (Vec4::ONE - points.metallic);
         let mirror = Lanes3::grey(Vec4::splat(PLAIN_MIRROR)).towards(points.colour, points.metallic);
         let mut light = self.ambient(&stand, matt, mirror, points.roughness, facing_eye, lit);
@@ -146,4 +174,16 @@ fn tone_map(colour: Lanes3) -> Lanes3 {
     let mapped = (colour * (rolled / peak)).towards(Lanes3::grey(rolled), fade);
     let pick = |mapped, colour| Vec4::select(bright, mapped, colour);
     Lanes3 { x: pick(mapped.x, colour.x), y: pick(mapped.y, colour.y), z: pick(mapped.z, colour.z) }
+}
+
+/// Sum of the sRGB codes of three channels of light, each 0 to 1, to about 0.002: roots stand in for the power 1/2.4 (fit by C. Taylor).
+fn brightness(light: Lanes3) -> Vec4 {
+    let code = |light: Vec4| {
+        let light = light.max(Vec4::ZERO);
+        let second = square_root(light);
+        let fourth = square_root(second);
+        let curve = second * 0.585_122_4 + fourth * 0.783_140_4 - square_root(fourth) * 0.368_262_7;
+        Vec4::select(light.cmple(Vec4::splat(0.003_130_8)), light * 12.92, curve)
+    };
+    code(light.x) + code(light.y) + code(light.z)
 }

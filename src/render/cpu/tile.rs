@@ -28,6 +28,8 @@ pub(super) struct Tile {
     /// Of the row that is being lit.
     fragments: Vec<Fragment>,
     light: Vec<Vec3>,
+    /// Of a picture with a transparent background.
+    opacity: Vec<f32>,
 }
 
 impl Default for Tile {
@@ -40,6 +42,7 @@ impl Default for Tile {
             origin: Vec2::ZERO,
             fragments: Vec::new(),
             light: vec![Vec3::ZERO; TILE_WIDTH],
+            opacity: vec![0.0; TILE_WIDTH],
         }
     }
 }
@@ -132,6 +135,13 @@ impl Tile {
                 continue;
             }
             self.list_fragments(y, width, backdrop.light);
+            if frame.is_clear {
+                self.light_before_nothing(frame);
+                for (pixel, (light, opacity)) in row.chunks_exact_mut(4).zip(self.light.iter().zip(&self.opacity)) {
+                    pixel.copy_from_slice(&translucent(*light, *opacity));
+                }
+                continue;
+            }
             self.light_fragments(frame, backdrop.light);
             for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
                 let empty = self.triangle[y * TILE_WIDTH + x] == NOTHING;
@@ -183,6 +193,20 @@ impl Tile {
             }
         }
     }
+
+    /// Light times opacity, and opacity.
+    fn light_before_nothing(&mut self, frame: &Frame<'_>) {
+        self.opacity.fill(0.0);
+        for group in self.fragments.chunks(4) {
+            let member = |lane: usize| &group[lane.min(group.len() - 1)];
+            let points = frame.points([member(0), member(1), member(2), member(3)]);
+            let (lights, opacity) = frame.lighting.shade_before_nothing(&points);
+            for (lane, fragment) in group.iter().enumerate() {
+                self.light[fragment.pixel] += lights.lane(lane) * fragment.weight;
+                self.opacity[fragment.pixel] += opacity[lane] * fragment.weight;
+            }
+        }
+    }
 }
 
 /// A triangle in a pixel.
@@ -203,6 +227,8 @@ pub(super) struct Frame<'a> {
     pub projected: &'a Projected,
     pub surfaces: &'a [Surface],
     pub lighting: Lighting<'a>,
+    /// The background is transparent.
+    pub is_clear: bool,
 }
 
 impl Frame<'_> {
@@ -256,4 +282,10 @@ impl Frame<'_> {
 
 fn bytes(light: Vec3) -> [u8; 4] {
     [encode(light.x), encode(light.y), encode(light.z), 255]
+}
+
+/// Straight alpha, from light times opacity.
+fn translucent(light: Vec3, opacity: f32) -> [u8; 4] {
+    let light = light / opacity.max(1e-6);
+    [encode(light.x), encode(light.y), encode(light.z), (opacity.clamp(0.0, 1.0) * 255.0 + 0.5) as u8]
 }

@@ -8,6 +8,7 @@ mod pipelines;
 mod targets;
 mod trial;
 
+use super::alpha::straighten_light;
 use super::draw_list::DrawList;
 use super::geometry::Geometry;
 use super::overlay::Overlay;
@@ -172,12 +173,12 @@ impl GpuRenderer {
         }
     }
 
-    fn record_scene(&self, encoder: &mut CommandEncoder, geometry: &Geometry, targets: &Targets) {
+    fn record_scene(&self, encoder: &mut CommandEncoder, geometry: &Geometry, targets: &Targets, is_clear: bool) {
         let colour = RenderPassColorAttachment {
             view: &targets.samples,
             depth_slice: None,
             resolve_target: Some(&targets.resolved),
-            ops: Operations { load: LoadOp::Clear(Color::BLACK), store: StoreOp::Discard },
+            ops: Operations { load: LoadOp::Clear(Color::TRANSPARENT), store: StoreOp::Discard },
         };
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("scene"),
@@ -186,8 +187,10 @@ impl GpuRenderer {
             ..RenderPassDescriptor::default()
         });
         pass.set_bind_group(0, &self.scene_group, &[]);
-        pass.set_pipeline(&self.pipelines.backdrop);
-        pass.draw(0..3, 0..1);
+        if !is_clear {
+            pass.set_pipeline(&self.pipelines.backdrop);
+            pass.draw(0..3, 0..1);
+        }
         if !geometry.triangles.is_empty() {
             pass.set_pipeline(&self.pipelines.scene);
             pass.set_vertex_buffer(0, self.vertices.slice(..));
@@ -206,13 +209,16 @@ impl GpuRenderer {
         };
         let mut encoder = self.device.create_command_encoder(&Default::default());
         self.record_shadow(&mut encoder, &geometry);
-        self.record_scene(&mut encoder, &geometry, &targets);
+        self.record_scene(&mut encoder, &geometry, &targets, list.background.is_transparent());
         targets.copy(&mut encoder);
         let drawn = self.queue.submit([encoder.finish()]);
         let submitted = Instant::now();
         self.check("drawing")?;
-        let image = targets.read(&self.device, drawn)?;
+        let mut image = targets.read(&self.device, drawn)?;
         self.check("reading the picture back")?;
+        if list.background.is_transparent() {
+            straighten_light(&mut image);
+        }
         self.targets = Some(targets);
         Ok((image, submitted))
     }
@@ -229,7 +235,7 @@ impl Renderer for GpuRenderer {
         let start = Instant::now();
         let (mut image, submitted) = self.draw_scene(list)?;
         let read = Instant::now();
-        self.overlay.blend(&list.overlay, &mut image)?;
+        self.overlay.blend(list, &mut image)?;
         Ok((image, DrawTimes { draw: submitted - start, read_back: read - submitted, overlay: read.elapsed() }))
     }
 }

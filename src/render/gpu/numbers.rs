@@ -4,7 +4,7 @@ use super::pipelines::VERTEX_FLOATS;
 use crate::render::draw_list::{Colour, DrawList};
 use crate::render::geometry::{Geometry, Vertex, linear};
 use crate::render::view::{LightView, SHADOW_SIZE};
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec4};
 
 /// Bytes of the uniform `Frame` in `scene.wgsl`, and of `Light` in `shadow.wgsl`.
 pub(super) const FRAME_BYTES: u64 = (16 + 11 * 4) * 4;
@@ -27,7 +27,7 @@ pub(super) fn light_numbers(view: &LightView) -> [Vec4; 4] {
 pub(super) fn frame_numbers(list: &DrawList, camera: &Mat4, view: &LightView) -> Vec<f32> {
     let (sun, background) = (&list.light, &list.background);
     let colour = |colour: Colour, factor: f32| (linear(colour.0) * factor).extend(0.0);
-    let code = |colour: Colour| Vec3::from_array([0, 1, 2].map(|i| f32::from(colour.0[i]) / 255.0)).extend(1.0);
+    let code = |colour: Colour| Vec4::from_array(colour.0.map(|code| f32::from(code) / 255.0));
     let size = Vec4::new(list.size[0] as f32, list.size[1] as f32, view.texel, SHADOW_SIZE as f32);
     let head =
         [list.camera.eye.extend(1.0), colour(sun.colour, sun.intensity), colour(sun.sky, 1.0), colour(sun.ground, 1.0)];

@@ -14,7 +14,7 @@ struct Frame {
     across_u: vec4<f32>,
     across_v: vec4<f32>,
     towards: vec4<f32>,
-    // sRGB, 0 to 1.
+    // sRGB, 0 to 1; alpha 0 for a transparent background.
     backdrop_top: vec4<f32>,
     backdrop_bottom: vec4<f32>,
     // Picture width and height, size of a shadow texel in the world, shadow texels along a side.
@@ -84,14 +84,38 @@ fn scene_vertex(
 fn scene_fragment(surface: Surface) -> @location(0) vec4<f32> {
     let behind = backdrop(surface.place.y);
     let fade = smoothstep(FADE_START, FADE_END, distance(surface.position, frame.shadow.xyz) / frame.shadow.w);
+    if frame.backdrop_top.a == 0.0 {
+        return before_nothing(surface, 1.0 - fade);
+    }
     if fade >= 1.0 {
         return vec4<f32>(behind, 1.0);
     }
-    let colour = tone_map(reflected(surface) + surface.colour * surface.finish.z);
+    let colour = tone_map(reflected(surface, true) + surface.colour * surface.finish.z);
     return vec4<f32>(mix(colour, behind, fade), 1.0);
 }
 
-fn reflected(surface: Surface) -> vec3<f32> {
+// Light times opacity, and opacity. A surface with a glow below 0 shows its shadow alone.
+fn before_nothing(surface: Surface, near: f32) -> vec4<f32> {
+    let colour = tone_map(reflected(surface, true) + surface.colour * max(surface.finish.z, 0.0));
+    if surface.finish.z >= 0.0 {
+        return vec4<f32>(colour * near, near);
+    }
+    let bright = tone_map(reflected(surface, false));
+    let dark = clamp(1.0 - brightness(colour) / max(brightness(bright), 1e-3), 0.0, 1.0);
+    return vec4<f32>(0.0, 0.0, 0.0, dark * near);
+}
+
+// Sum of the sRGB codes of three channels of light: roots stand in for the power 1/2.4.
+fn brightness(colour: vec3<f32>) -> f32 {
+    let light = max(colour, vec3<f32>(0.0));
+    let second = sqrt(light);
+    let fourth = sqrt(second);
+    let curve = second * 0.5851224 + fourth * 0.7831404 - sqrt(fourth) * 0.3682627;
+    let code = select(curve, light * 12.92, light <= vec3<f32>(0.0031308));
+    return code.r + code.g + code.b;
+}
+
+fn reflected(surface: Surface, with_shadows: bool) -> vec3<f32> {
     let roughness = surface.finish.x;
     let metallic = surface.finish.y;
     let normal = normalize(surface.normal);
@@ -104,7 +128,10 @@ fn reflected(surface: Surface) -> vec3<f32> {
     var lit = 0.0;
     var sun = vec3<f32>(0.0);
     if facing_sun > 0.0 {
-        lit = lit_part(surface.position, normal, facing_sun);
+        lit = 1.0;
+        if with_shadows {
+            lit = lit_part(surface.position, normal, facing_sun);
+        }
         let shine = highlight(normal, view, facing_eye, facing_sun, roughness, mirror);
         sun = frame.sun.rgb * (matt + shine) * (facing_sun * lit);
     }

@@ -8,7 +8,8 @@ mod text;
 pub use text::text_width;
 
 use super::RenderError;
-use super::draw_list::{Colour, OverlayItem, Rectangle, Stroke};
+use super::alpha::{premultiply, straighten};
+use super::draw_list::{Colour, DrawList, OverlayItem, Rectangle, Stroke};
 use glam::Vec2;
 use image::RgbaImage;
 use std::sync::Arc;
@@ -35,8 +36,19 @@ pub(crate) struct Overlay {
 }
 
 impl Overlay {
-    /// Blends the items over an opaque picture.
-    pub fn blend(&mut self, items: &[OverlayItem], image: &mut RgbaImage) -> Result<(), RenderError> {
+    /// Blends the items over a picture, which is opaque or has straight alpha.
+    pub fn blend(&mut self, list: &DrawList, image: &mut RgbaImage) -> Result<(), RenderError> {
+        if !list.background.is_transparent() {
+            return self.blend_over(&list.overlay, image);
+        }
+        premultiply(image);
+        let blended = self.blend_over(&list.overlay, image);
+        straighten(image);
+        blended
+    }
+
+    /// All over a picture whose colours are multiplied by their alpha.
+    fn blend_over(&mut self, items: &[OverlayItem], image: &mut RgbaImage) -> Result<(), RenderError> {
         if items.is_empty() {
             return Ok(());
         }

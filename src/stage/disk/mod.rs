@@ -49,7 +49,7 @@ impl DiskStage {
     #[must_use]
     pub fn new(case: Case, motion: DiskMotion, exact: Option<DiskMotion>) -> Option<Self> {
         let disk = case.disk.as_ref()?.disk.clone();
-        let palette = Palette::of(case.film.theme);
+        let palette = Palette::of(case.film.theme).before(case.film.background);
         let layout = Layout::new([case.film.width, case.film.height], case.panels().len());
         let colours = DeflectionColours::new(case.film.theme, motion.largest_deflection().max(SMALLEST));
         let frame = Frame { disk: &disk, motion: &motion, colours, scale: layout.scale, palette };

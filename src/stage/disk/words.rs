@@ -7,6 +7,7 @@ use crate::model::{BladedDisk, Topology};
 use crate::render::{Anchor, Camera, Colour, OverlayItem, Rectangle, Stroke};
 use crate::stage::labels;
 use crate::stage::layout::Layout;
+use crate::stage::numbers;
 use crate::stage::palette::Palette;
 use glam::{Vec2, Vec3};
 
@@ -132,7 +133,7 @@ impl Words {
         out.push(self.text(upper, Anchor::Right, 12.0, palette.faint_text, self.magnified.clone()));
         if let Some(apart) = apart {
             let place = Vec2::new(origin.x, origin.y - 12.0 * s);
-            let text = format!("off the exact solution by {apart:.1e} now");
+            let text = format!("exact solution {} away", numbers::with_power(apart));
             out.push(self.text(place, Anchor::Left, 12.0, palette.faint_text, text));
         }
         self.draw_key(layout, out);

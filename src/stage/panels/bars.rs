@@ -1,8 +1,8 @@
 //! A ledger as a panel of horizontal bars about zero, each with its label and its number.
 
 use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke};
+use crate::stage::numbers;
 use crate::stage::palette::Palette;
-use crate::stage::plot::PANEL_ALPHA;
 use glam::Vec2;
 
 /// Left ends of labels and bars and right end of the numbers, and first row, pixels of a 720 lines high picture.
@@ -38,7 +38,7 @@ impl Bars {
         out.push(OverlayItem::Box {
             area: self.place,
             corner_radius: 8.0 * s,
-            fill: palette.panel.with_alpha(PANEL_ALPHA),
+            fill: palette.panel,
             stroke: Some(Stroke { width: s, colour: palette.panel_edge }),
         });
         let text = |position, anchor, size: f32, colour, bold, text| OverlayItem::Text {
@@ -84,7 +84,11 @@ impl Bars {
 
 /// With its sign; three digits after the point, or two and the power of ten.
 pub fn written(value: f64, with_power: bool) -> String {
-    let text = if with_power { format!("{value:+.1e}") } else { format!("{value:+.3}") };
+    if with_power {
+        let sign = if value > 0.0 { "+" } else { "" };
+        return format!("{sign}{}", numbers::with_power(value));
+    }
+    let text = format!("{value:+.3}");
     // A sign before nothing says nothing.
     if text == "-0.000" || text == "+0.000" {
         return "0.000".to_owned();
@@ -101,6 +105,7 @@ mod tests {
         assert_eq!(written(0.12345, false), "+0.123");
         assert_eq!(written(-2.0, false), "−2.000");
         assert_eq!(written(-0.0001, false), "0.000");
-        assert_eq!(written(-2.34e-6, true), "−2.3e−6");
+        assert_eq!(written(-2.34e-6, true), "−2.3·10⁻⁶");
+        assert_eq!(written(2.34e-6, true), "+2.3·10⁻⁶");
     }
 }

@@ -2,6 +2,7 @@
 
 mod browser;
 mod fake;
+mod ffmpeg;
 mod mp4;
 mod resume;
 mod sequence;

@@ -30,7 +30,7 @@ fn to_rgb(planes: &Planes, kr: f64, kb: f64) -> RgbaImage {
     })
 }
 
-fn bt709(planes: &Planes) -> RgbaImage {
+pub fn bt709(planes: &Planes) -> RgbaImage {
     to_rgb(planes, 0.2126, 0.0722)
 }
 
@@ -39,7 +39,7 @@ fn bt601(planes: &Planes) -> RgbaImage {
 }
 
 /// Peak signal to noise ratio of the luma, dB, against the picture that was drawn.
-fn luma_psnr(planes: &Planes, drawn: &RgbaImage) -> f64 {
+pub fn luma_psnr(planes: &Planes, drawn: &RgbaImage) -> f64 {
     let squares = drawn.pixels().zip(&planes.y).map(|(pixel, &luma)| {
         let [r, g, b, _] = pixel.0.map(f64::from);
         let exact = 16.0 + 219.0 / 255.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b);
@@ -52,7 +52,7 @@ fn luma_psnr(planes: &Planes, drawn: &RgbaImage) -> f64 {
 /// The quantiser step of H.264 doubles every 6 and is 10 at 24. With the rounding of inter blocks, 1/6, an error reaches 5/6 of
 /// a step; spread evenly over that range its mean square is (5/6)^2/3 steps squared. No coefficient can be worse than
 /// that on average, so neither can a picture: 37.6 dB at quantiser 20 (step 6.5), and 0.5 dB for rounding to 8 bits.
-fn least_psnr(quantiser: u8) -> f64 {
+pub fn least_psnr(quantiser: u8) -> f64 {
     let step = 10.0 * 2.0_f64.powf((f64::from(quantiser) - 24.0) / 6.0);
     10.0 * (255.0 * 255.0 / ((5.0_f64 / 6.0).powi(2) / 3.0 * step * step)).log10() - 0.5
 }

@@ -23,14 +23,14 @@ struct Packet {
 }
 
 /// Encodes pictures in order and holds the packets.
-pub(super) struct VideoEncoder {
+pub(super) struct H264Encoder {
     encoder: Encoder,
     planes: Planes,
     packets: Vec<Packet>,
     frames_per_second: u32,
 }
 
-impl VideoEncoder {
+impl H264Encoder {
     pub fn new(settings: &FilmSettings) -> Result<Self, FilmError> {
         let FilmSettings { frames_per_second, quantiser, .. } = *settings;
         let config = EncoderConfig::new()
@@ -71,19 +71,19 @@ impl VideoEncoder {
         Ok(())
     }
 
-    pub fn into_film(self, size: [u32; 2]) -> Film {
-        Film { packets: self.packets, size, frames_per_second: self.frames_per_second }
+    pub fn into_packets(self, size: [u32; 2]) -> Packets {
+        Packets { packets: self.packets, size, frames_per_second: self.frames_per_second }
     }
 }
 
 /// An encoded film in memory.
-pub(super) struct Film {
+pub(super) struct Packets {
     packets: Vec<Packet>,
     size: [u32; 2],
     frames_per_second: u32,
 }
 
-impl Film {
+impl Packets {
     pub fn write(self, writer: &mut (dyn Write + Send)) -> io::Result<()> {
         let [width, height] = self.size;
         let rate = f64::from(self.frames_per_second);
