@@ -11,7 +11,7 @@ use crate::stage::DampingMap;
 
 /// Weakest and strongest self-excitation of the diagram, and the number of motions in it.
 const RANGE: [f64; 2] = [0.0, -0.2];
-const MOTIONS: usize = 81;
+const MOTIONS: usize = 80;
 /// Short motions: the picture is small, and a tenth of a second is all it may take.
 const WINDOW: Window = Window { transient: 500.0, length: 400.0 };
 /// Largest amplitude of a limit cycle.
@@ -33,8 +33,9 @@ pub fn of(case: &Case, progress: &Progress) -> anyhow::Result<Option<DampingMap>
 
 fn compute(p: RigParameters, excitation: f64) -> anyhow::Result<DampingMap> {
     let [weakest, strongest] = [RANGE[0], RANGE[1].min(1.15 * excitation)];
-    let part = |n: usize| n as f64 / (MOTIONS - 1) as f64;
-    let values: Vec<f64> = (0..MOTIONS).map(|n| weakest + (strongest - weakest) * part(n)).collect();
+    let part = |n: usize| n as f64 / MOTIONS as f64;
+    // Without self-excitation every small motion goes on for ever: none is steady.
+    let values: Vec<f64> = (1..=MOTIONS).map(|n| weakest + (strongest - weakest) * part(n)).collect();
     let plan = DiagramPlan { window: WINDOW, ..DiagramPlan::default() };
     let rows = amplitude_diagram(&values, &plan, &[], |xi1| prepare(RigParameters { xi1, ..p }), |_, _, _| {})?;
     let branch = Branch::follow(lower_branch(p, Heading::Decreasing)?.up_to_amplitude(HIGHEST), |_| false)?;
@@ -42,9 +43,12 @@ fn compute(p: RigParameters, excitation: f64) -> anyhow::Result<DampingMap> {
     let cycle = |point: &crate::orbit::BranchPoint| {
         (point.parameters.xi1, point.orbit.reversal().positions[0].abs(), point.orbit.stable())
     };
+    let divergence = divergence_edge(&rows).map(|edge| edge.first_diverged);
+    // Beyond the edge a motion may last longer than the window, but it is not a steady one.
+    let steady = rows.iter().filter(|row| divergence.is_none_or(|edge| row.value > edge));
     Ok(DampingMap {
         limit_cycles: branch.points.iter().map(cycle).collect(),
-        motions: rows.iter().filter_map(|row| Some((row.value, [row.a1_min?, row.a1_max?]))).collect(),
-        divergence: divergence_edge(&rows).map(|edge| edge.first_diverged),
+        motions: steady.filter_map(|row| Some((row.value, [row.a1_min?, row.a1_max?]))).collect(),
+        divergence,
     })
 }

@@ -8,7 +8,7 @@ use super::progress::Progress;
 use crate::film::{encode_png, gif, scaled};
 use crate::render::Renderer;
 use crate::scene::{BUILT_IN, Case, Scene};
-use crate::stage::Stage;
+use crate::stage::Take;
 use crate::store::write_atomically;
 use anyhow::Context;
 use clap::Args;
@@ -58,9 +58,9 @@ fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 }
 
 /// The case in the engine, ready to be drawn.
-fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<Stage> {
+fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<Take> {
     let recording = motions::in_engine(case, &motions::start(case)?, motions::film_sampling(case))?;
-    film::stage(case, Shown::of_engine(&recording)?, supersample, progress)
+    film::stage(case, Shown::of_engine(case, &recording)?, supersample, progress)
 }
 
 fn picture(case: &Case, supersample: u32, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {

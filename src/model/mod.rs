@@ -21,7 +21,7 @@ pub use chain::OscillatorChain;
 pub use chain_builder::ChainBuilder;
 pub use disk::{
     Aerodynamics, BladedDisk, ContactPlace, DiskSegments, FrictionContacts, Harmonic, InfluenceCoefficient,
-    InfluenceCoefficients, Mistuning, ModeShape, NodalDiameter, Topology, TravelDirection, TunedMode,
+    InfluenceCoefficients, Mistuning, ModeShape, NodalDiameter, Spectrum, Topology, TravelDirection, TunedMode,
 };
 pub use energy::{EnergyLedger, Works};
 pub use harmonic::{HarmonicEstimate, sticking_angle};

@@ -24,6 +24,16 @@ pub enum RendererChoice {
     Gl,
     /// A software implementation of Vulkan or OpenGL, to test the graphics path without a card.
     Software,
+    /// A software implementation of Vulkan, such as lavapipe.
+    SoftwareVulkan,
+    /// A software implementation of OpenGL, such as llvmpipe.
+    SoftwareGl,
+}
+
+impl RendererChoice {
+    pub(super) fn is_software(self) -> bool {
+        matches!(self, Self::Software | Self::SoftwareVulkan | Self::SoftwareGl)
+    }
 }
 
 /// A driver that has not opened a device by then hangs.

@@ -2,10 +2,12 @@
 //! that it can be seen, and a label that says by how much.
 
 use super::motion::{Instant, Motion};
+use super::numbers::with_power;
 use super::palette::Palette;
 use super::rig::RigModel;
 use crate::render::{Anchor, Camera, OverlayItem, Stroke};
 use glam::{Vec2, Vec3};
+use std::collections::BTreeSet;
 
 /// The largest difference of the film is drawn this long at most, in drawing units.
 const LONGEST: f64 = 0.3;
@@ -13,11 +15,8 @@ const LONGEST: f64 = 0.3;
 const SHORTEST: f64 = 0.004;
 /// Differences beyond this factor of magnification are rounding.
 const LARGEST_FACTOR: f64 = 1e9;
-/// Edges of a cuboid whose corners are numbered by the bits of their signs, and its faces seen from outside.
-const EDGES: [[usize; 2]; 12] =
-    [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
-/// Front, right and upper face.
-const FACES: [[usize; 4]; 3] = [[4, 5, 7, 6], [1, 3, 7, 5], [2, 6, 7, 3]];
+/// Faces of a cuboid whose corners are numbered by the bits of their signs, counter-clockwise seen from outside.
+const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 /// A reference motion and how much its distance from the motion shown is magnified.
 #[derive(Debug, Clone)]
@@ -69,7 +68,7 @@ impl Ghost {
             size: 13.0 * scale,
             colour: palette.faint_text,
             bold: false,
-            text: format!("outline: exact solution{factor}; now {:.1e} apart", distance(now, &exact)),
+            text: format!("outline: exact solution{factor}; now {} apart", with_power(distance(now, &exact))),
         });
     }
 }
@@ -92,6 +91,7 @@ fn thousands(value: f64) -> String {
     text
 }
 
+/// The sides towards the camera: the others are behind the body.
 fn draw_cuboid(
     corners: [Vec3; 8],
     camera: &Camera,
@@ -102,12 +102,18 @@ fn draw_cuboid(
     let Some(places) = corners.iter().map(|&corner| camera.project(corner, size)).collect::<Option<Vec<Vec2>>>() else {
         return;
     };
+    let mut edges = BTreeSet::new();
     for face in FACES {
-        let points = face.map(|corner| places[corner]).to_vec();
-        out.push(OverlayItem::Polygon { points, fill: palette.ghost.with_alpha(0.10), clip: None });
+        let points = face.map(|corner| places[corner]);
+        // Rows of a picture run downwards, which turns the sense round.
+        if (points[1] - points[0]).perp_dot(points[2] - points[1]) >= 0.0 {
+            continue;
+        }
+        out.push(OverlayItem::Polygon { points: points.to_vec(), fill: palette.ghost.with_alpha(0.06), clip: None });
+        edges.extend((0..4).map(|i| (face[i].min(face[(i + 1) % 4]), face[i].max(face[(i + 1) % 4]))));
     }
-    for [from, to] in EDGES {
-        let stroke = Stroke { width: 1.3 * scale, colour: palette.ghost.with_alpha(0.75) };
+    for (from, to) in edges {
+        let stroke = Stroke { width: 1.5 * scale, colour: palette.ghost.with_alpha(0.8) };
         out.push(OverlayItem::Line { points: vec![places[from], places[to]], stroke, clip: None });
     }
 }

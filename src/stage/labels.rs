@@ -74,6 +74,7 @@ pub fn draw_status(
         None => {
             format!("ξ₁ = {}   ξ₂ = {}   κ = {}   γ = {}", short(xi1), short(p.xi2), short(p.kappa), short(p.gamma))
         }
+        Some(m) if m.angular_frequency == 1.0 => format!("x₁ = {} sin t", short(m.amplitude)),
         Some(m) => format!("x₁ = {} sin({} t)", short(m.amplitude), short(m.angular_frequency)),
     };
     out.push(OverlayItem::Text {
@@ -87,7 +88,7 @@ pub fn draw_status(
 }
 
 /// At most four significant digits after the point, without trailing zeros.
-fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     let digits = format!("{value:.4}");
     let digits = digits.trim_end_matches('0').trim_end_matches('.');
     digits.replace('-', "−")

@@ -2,22 +2,27 @@
 //!
 //! A frame is a pure function of its index: it shows the motion at `index * speed / fps`.
 
+mod disk;
 mod envelope;
 mod ghost;
 mod labels;
 mod layout;
 mod motion;
+mod numbers;
 mod palette;
 mod panels;
 mod plot;
 mod rig;
+mod take;
 
+pub use disk::{DeflectionColours, DiskInstant, DiskMotion, DiskStage};
 pub use motion::{Body, Instant, Motion};
 pub use panels::DampingMap;
 pub use plot::{Axis, Plot};
+pub use take::Take;
 
-use crate::render::{Anchor, Camera, DrawList, OverlayItem};
-use crate::scene::Case;
+use crate::render::{Anchor, Camera, DrawList, OverlayItem, Rectangle};
+use crate::scene::{Case, View};
 use ghost::Ghost;
 use glam::{Vec2, Vec3};
 use layout::Layout;
@@ -29,6 +34,9 @@ use rig::RigModel;
 const MIDDLE: Vec3 = Vec3::new(-0.1, 0.52, 0.12);
 const EXTENT: [f32; 2] = [3.7, 1.4];
 const DISTANCE: f32 = 10.3;
+/// Width of the shade beside the panels in a close view, pixels of a 720 lines high picture, and its steps.
+const SCRIM: f32 = 56.0;
+const SCRIM_STEPS: u32 = 28;
 
 /// What a film may show beside its motion.
 #[derive(Debug, Clone, Default)]
@@ -106,6 +114,7 @@ impl Stage {
         let size = [film.width, film.height];
         let camera = self.camera(seconds);
         let mut overlay = Vec::new();
+        self.draw_scrim(seconds, &mut overlay);
         self.draw_words(&now, seconds, &camera, &mut overlay);
         self.panels.draw(&self.motion, &now, &mut overlay);
         DrawList {
@@ -168,10 +177,38 @@ impl Stage {
         }
     }
 
+    /// Darkens the column of panels where a close view would show parts of the rig between them.
+    fn draw_scrim(&self, seconds: f64, out: &mut Vec<OverlayItem>) {
+        let closeness = ((self.view(seconds).zoom - 1.0) / 0.5).clamp(0.0, 1.0) as f32;
+        let backdrop = self.palette.backdrop;
+        if closeness == 0.0 || self.layout.panels.is_empty() || backdrop.is_transparent() {
+            return;
+        }
+        let (width, left) = (SCRIM * self.layout.scale, self.layout.scene.max.x);
+        let [right, height] = [self.case.film.width, self.case.film.height].map(|side| side as f32);
+        let mut strip = |from: f32, to: f32, part: f32| {
+            out.push(OverlayItem::Box {
+                area: Rectangle { min: Vec2::new(from.round(), 0.0), max: Vec2::new(to.round(), height) },
+                corner_radius: 0.0,
+                fill: backdrop.top.with_alpha(part * closeness),
+                stroke: None,
+            });
+        };
+        for number in 0..SCRIM_STEPS {
+            let place = |n: u32| left - width * (1.0 - n as f32 / SCRIM_STEPS as f32);
+            strip(place(number), place(number + 1), (number as f32 + 0.5) / SCRIM_STEPS as f32);
+        }
+        strip(left, right, 1.0);
+    }
+
+    fn view(&self, seconds: f64) -> View {
+        let length = self.frame_count().saturating_sub(1) as f64 / f64::from(self.case.film.fps);
+        self.case.direction.camera.view(seconds, length)
+    }
+
     /// Where the direction of the scene puts it.
     fn camera(&self, seconds: f64) -> Camera {
-        let length = self.frame_count().saturating_sub(1) as f64 / f64::from(self.case.film.fps);
-        let view = self.case.direction.camera.view(seconds, length);
+        let view = self.view(seconds);
         let shift = Vec3::from(view.shift.map(|shift| shift as f32));
         let direction = [view.azimuth, view.elevation].map(|angle| angle.to_radians() as f32);
         self.layout.camera(MIDDLE + shift, direction, DISTANCE, EXTENT.map(|half| half / view.zoom as f32))

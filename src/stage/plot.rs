@@ -54,6 +54,10 @@ impl Axis {
         (-self.tick.log10().floor()).clamp(0.0, 9.0) as usize
     }
 
+    fn written(self, tick: f64) -> String {
+        format!("{tick:.*}", self.decimals()).replace('-', "−")
+    }
+
     fn part(self, value: f64) -> f32 {
         ((value - self.min) / (self.max - self.min)) as f32
     }
@@ -69,9 +73,6 @@ fn round_tick(wanted: f64) -> f64 {
         .unwrap_or(10.0 * decade)
 }
 
-/// Panels let a little of the scene through.
-pub const PANEL_ALPHA: f32 = 0.95;
-
 /// A plot: where it is, and what its axes mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
@@ -85,14 +86,22 @@ pub struct Plot {
     pub y_label: String,
     pub x: Axis,
     pub y: Axis,
+    /// Free border at the right of the area, pixels of a 720 lines high picture.
+    pub right: f32,
 }
+
+/// Free border at the right of a plot with nothing there.
+pub const RIGHT: f32 = 14.0;
 
 impl Plot {
     /// The part of the panel that data is drawn in.
     #[must_use]
     pub fn area(&self) -> Rectangle {
         let s = self.scale;
-        Rectangle { min: self.panel.min + Vec2::new(50.0, 40.0) * s, max: self.panel.max - Vec2::new(14.0, 24.0) * s }
+        Rectangle {
+            min: self.panel.min + Vec2::new(50.0, 40.0) * s,
+            max: self.panel.max - Vec2::new(self.right, 24.0) * s,
+        }
     }
 
     /// Pixel of a data point.
@@ -108,7 +117,7 @@ impl Plot {
         out.push(OverlayItem::Box {
             area: self.panel,
             corner_radius: 8.0 * self.scale,
-            fill: self.palette.panel.with_alpha(PANEL_ALPHA),
+            fill: self.palette.panel,
             stroke: Some(self.stroke(1.0, self.palette.panel_edge)),
         });
         // The label of the x axis stands at the right end of the tick labels, which leave it room.
@@ -117,13 +126,13 @@ impl Plot {
             self.draw_rule([self.pixel(value, self.y.min), self.pixel(value, self.y.max)], value == 0.0, out);
             let place = self.pixel(value, self.y.min) + Vec2::new(0.0, 14.0) * self.scale;
             if place.x < room {
-                out.push(self.text(place, Anchor::Centre, format!("{value:.*}", self.x.decimals())));
+                out.push(self.text(place, Anchor::Centre, self.x.written(value)));
             }
         }
         for value in self.y.ticks() {
             self.draw_rule([self.pixel(self.x.min, value), self.pixel(self.x.max, value)], value == 0.0, out);
             let place = self.pixel(self.x.min, value) + Vec2::new(-6.0, 3.5) * self.scale;
-            out.push(self.text(place, Anchor::Right, format!("{value:.*}", self.y.decimals())));
+            out.push(self.text(place, Anchor::Right, self.y.written(value)));
         }
         self.draw_labels(out);
     }
@@ -173,6 +182,35 @@ impl Plot {
         });
     }
 
+    /// The current point where its value is beyond the upper end: a tip that points there.
+    pub fn draw_beyond(&self, x: f64, colour: Colour, out: &mut Vec<OverlayItem>) {
+        let tip = self.pixel(x, self.y.max);
+        let points = [[0.0, 0.0], [6.5, 10.0], [-6.5, 10.0]].map(|shift| tip + Vec2::from(shift) * self.scale);
+        out.push(OverlayItem::Polygon { points: points.to_vec(), fill: colour, clip: None });
+        let outline = points.into_iter().chain([tip]).collect();
+        out.push(OverlayItem::Line { points: outline, stroke: self.stroke(1.5, self.palette.text), clip: None });
+    }
+
+    /// A small word beside a data point.
+    pub fn draw_word(
+        &self,
+        [x, y]: [f64; 2],
+        shift: Vec2,
+        anchor: Anchor,
+        word: &str,
+        colour: Colour,
+        out: &mut Vec<OverlayItem>,
+    ) {
+        out.push(OverlayItem::Text {
+            position: self.pixel(x, y) + shift * self.scale,
+            anchor,
+            size: 10.0 * self.scale,
+            colour,
+            bold: false,
+            text: word.to_owned(),
+        });
+    }
+
     fn stroke(&self, width: f32, colour: Colour) -> Stroke {
         Stroke { width: width * self.scale, colour }
     }
@@ -213,6 +251,7 @@ mod tests {
             y_label: String::new(),
             x: Axis::exactly(0.0, 10.0),
             y: Axis::exactly(-1.0, 1.0),
+            right: RIGHT,
         };
         assert_eq!(plot.pixel(0.0, -1.0), Vec2::new(150.0, 226.0));
         assert_eq!(plot.pixel(10.0, 1.0), Vec2::new(386.0, 90.0));

@@ -474,3 +474,36 @@ fn without_ffmpeg_its_film_is_refused_before_anything_is_computed() {
     }
     assert!(!output.exists());
 }
+
+/// Frames with alpha, no film, and a loop of them as animated PNG; GIF cannot show them.
+#[test]
+fn a_transparent_background_gives_frames_with_alpha_and_no_film() {
+    let folder = tempfile::tempdir().unwrap();
+    let film = folder.path().join("film");
+    let film = film.to_str().unwrap();
+    let scene = scene_file(
+        folder.path(),
+        "title = \"x\"\n[simulation]\nduration = 1.0\n[film]\nwidth = 320\nheight = 180\nfps = 4\nbackground = \"transparent\"\n",
+    );
+    let with = ["render", &scene, "--with", "exact", "--renderer", "cpu", "-o", film];
+    let output = stickslip(&with);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success() && told.contains("H.264 has no alpha"), "{told}");
+    assert!(!Path::new(film).join("film.mp4").exists());
+    let frame = image::open(Path::new(film).join("frames/000000.png")).unwrap();
+    let image::DynamicImage::ImageRgba8(frame) = frame else { panic!("no alpha") };
+    assert_eq!(frame.get_pixel(100, 2).0[3], 0);
+    assert!(frame.pixels().any(|pixel| pixel.0[3] == 255));
+    let gif = folder.path().join("loop.gif");
+    refused(&["animate", film, "-o", gif.to_str().unwrap()], &["translucent", ".png"]);
+    let loop_ = folder.path().join("loop.png");
+    assert!(stickslip(&["animate", film, "--width", "160", "-o", loop_.to_str().unwrap()]).status.success());
+    let image::DynamicImage::ImageRgba8(first) = image::open(loop_).unwrap() else { panic!("no alpha") };
+    assert!(first.get_pixel(50, 1).0[3] == 0);
+    // The same by an option; the opaque frames of the scene are another film.
+    let still = folder.path().join("still.png");
+    let args = ["render", "--with", "exact", "--at", "3", "--size", "320x180", "--background", "transparent", "-o"];
+    assert!(stickslip(&[&args[..], &[still.to_str().unwrap()]].concat()).status.success());
+    assert!(matches!(image::open(still).unwrap(), image::DynamicImage::ImageRgba8(_)));
+    refused(&[&with[..], &["--background", "theme"]].concat(), &["background", "--force"]);
+}

@@ -145,7 +145,7 @@ fn frames_are_the_golden_pictures() {
 #[test]
 fn graphics_adapters_draw_the_golden_pictures_but_for_edges() {
     let mut compared = 0;
-    for choice in [RendererChoice::Gpu, RendererChoice::Software] {
+    for choice in [RendererChoice::Gpu, RendererChoice::SoftwareVulkan, RendererChoice::SoftwareGl] {
         for golden in &PICTURES {
             let Some(image) = draw(&list(golden), choice) else { continue };
             let found = differences(&image, &stored(golden));

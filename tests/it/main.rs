@@ -84,3 +84,5 @@ mod stage;
 mod store;
 mod symmetry;
 mod tangent;
+#[cfg(feature = "render")]
+mod transparent;

@@ -52,6 +52,16 @@ fn panel(list: &DrawList, kind: Panel) -> Vec<OverlayItem> {
     panels(list)[index].clone()
 }
 
+/// A number as it is written, with a minus sign and raised powers of ten.
+fn number(text: &str) -> Option<f64> {
+    let raised = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
+    let plain = text.replace("·10", "e").replace('\u{2212}', "-");
+    let lower = |letter| {
+        raised.chars().zip("0123456789-".chars()).find(|(high, _)| *high == letter).map_or(letter, |pair| pair.1)
+    };
+    plain.chars().map(lower).collect::<String>().parse().ok()
+}
+
 /// Value over pixel, from two ticks.
 struct Scale {
     pixels: [f64; 2],
@@ -69,7 +79,7 @@ fn scales(panel: &[OverlayItem]) -> [Scale; 2] {
     let ticks = |wanted: Anchor| -> Vec<(Vec2, f64)> {
         let tick = |item: &OverlayItem| match item {
             OverlayItem::Text { position, anchor, text, size, .. } if *anchor == wanted && *size == 11.0 => {
-                Some((*position, text.parse().ok()?))
+                Some((*position, number(text)?))
             }
             _ => None,
         };
@@ -148,7 +158,7 @@ fn the_ledger_shows_the_works_of_the_last_period() {
         let numbers: Vec<f64> = panel(&stage.frame(index), Panel::Energy)
             .iter()
             .filter_map(|item| match item {
-                OverlayItem::Text { anchor: Anchor::Right, text, .. } => text.replace('\u{2212}', "-").parse().ok(),
+                OverlayItem::Text { anchor: Anchor::Right, text, .. } => number(text),
                 _ => None,
             })
             .collect();
@@ -227,7 +237,9 @@ fn the_exact_solution_is_outlined_where_it_differs_and_not_where_it_does_not() {
     let says = |exact: &Trajectory| {
         let beside = Beside { exact: Motion::new(exact), map: None };
         let list = Stage::new(case.clone(), motion.clone(), beside).frame(200);
-        list.overlay.iter().any(|item| matches!(item, OverlayItem::Text { text, .. } if text.contains("3.0e-5 apart")))
+        list.overlay
+            .iter()
+            .any(|item| matches!(item, OverlayItem::Text { text, .. } if text.contains("3.0·10⁻⁵ apart")))
     };
     assert!(says(&late) && !says(&trajectory));
 }
@@ -273,7 +285,7 @@ fn the_rows_of_the_ledger_add_up() {
     let numbers: Vec<f64> = panels(&list)[place]
         .iter()
         .filter_map(|item| match item {
-            OverlayItem::Text { anchor: Anchor::Right, text, .. } => text.replace('\u{2212}', "-").parse().ok(),
+            OverlayItem::Text { anchor: Anchor::Right, text, .. } => number(text),
             _ => None,
         })
         .collect();

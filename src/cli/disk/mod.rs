@@ -1,6 +1,7 @@
 //! `disk`: nonlinear analysis of the bladed disk of a scene.
 
 mod cycle;
+pub mod filmed;
 mod flutter;
 mod motion;
 mod solver;

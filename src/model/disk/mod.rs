@@ -50,6 +50,7 @@ mod friction;
 mod influence;
 mod mistuning;
 mod mode_shape;
+mod spectrum;
 mod tuned;
 mod wave;
 
@@ -58,5 +59,6 @@ pub use friction::{ContactPlace, FrictionContacts};
 pub use influence::{Aerodynamics, InfluenceCoefficient, InfluenceCoefficients};
 pub use mistuning::{Harmonic, Mistuning};
 pub use mode_shape::ModeShape;
+pub use spectrum::Spectrum;
 pub use tuned::TunedMode;
 pub use wave::{NodalDiameter, TravelDirection};

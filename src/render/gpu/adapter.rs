@@ -16,14 +16,14 @@ pub(super) struct Candidate {
 /// If none fits: names those that were found and why they were refused.
 pub(super) fn candidates(choice: RendererChoice) -> Result<Vec<Candidate>, RenderError> {
     let backends = match choice {
-        RendererChoice::Vulkan => Backends::VULKAN,
-        RendererChoice::Gl => Backends::GL,
+        RendererChoice::Vulkan | RendererChoice::SoftwareVulkan => Backends::VULKAN,
+        RendererChoice::Gl | RendererChoice::SoftwareGl => Backends::GL,
         _ => Backends::VULKAN | Backends::METAL | Backends::DX12 | Backends::GL,
     };
     let descriptor = InstanceDescriptor { backends, ..InstanceDescriptor::new_without_display_handle() };
     let found = pollster::block_on(Instance::new(descriptor).enumerate_adapters(backends));
     let (mut fitting, refused): (Vec<_>, Vec<_>) =
-        found.into_iter().partition(|adapter| is_software(adapter) == (choice == RendererChoice::Software));
+        found.into_iter().partition(|adapter| is_software(adapter) == choice.is_software());
     let refusals: Vec<String> = refused.iter().map(refusal).collect();
     if fitting.is_empty() {
         let reason = if refusals.is_empty() { "none is installed".into() } else { refusals.join("; ") };
@@ -41,6 +41,8 @@ pub(super) fn wanted(choice: RendererChoice) -> &'static str {
         RendererChoice::Vulkan => "hardware Vulkan",
         RendererChoice::Gl => "hardware OpenGL",
         RendererChoice::Software => "software graphics",
+        RendererChoice::SoftwareVulkan => "software Vulkan",
+        RendererChoice::SoftwareGl => "software OpenGL",
         RendererChoice::Auto | RendererChoice::Gpu | RendererChoice::Cpu => "hardware graphics",
     }
 }

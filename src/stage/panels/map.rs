@@ -68,16 +68,22 @@ impl Map {
         if let Some(edge) = self.map.divergence {
             let ends = [(-edge, plot.y.min), (-edge, plot.y.max)];
             plot.draw_line(ends.into_iter(), 1.2, palette.slip.with_alpha(0.7), out);
-            out.push(OverlayItem::Text {
-                position: plot.pixel(-edge, plot.y.min) - Vec2::new(4.0, 5.0) * plot.scale,
-                anchor: Anchor::Right,
-                size: 10.0 * plot.scale,
-                colour: palette.faint_text,
-                bold: false,
-                text: "diverges".to_owned(),
-            });
+            let beside = Vec2::new(-4.0, -5.0);
+            plot.draw_word([-edge, plot.y.min], beside, Anchor::Right, "diverges", palette.slip, out);
         }
+        self.draw_legend(out);
         self.draw_here(now, out);
+    }
+
+    /// What the lines and dots are, in the corner that amplitudes near the slip limit leave free.
+    fn draw_legend(&self, out: &mut Vec<OverlayItem>) {
+        let (plot, palette) = (&self.plot, &self.plot.palette);
+        let words =
+            [("stable cycle", palette.stick), ("unstable", palette.excitation), ("least and most", palette.faint_text)];
+        for (row, (word, colour)) in words.into_iter().enumerate() {
+            let shift = Vec2::new(5.0, 11.0 + 12.0 * row as f32);
+            plot.draw_word([plot.x.min, plot.y.max], shift, Anchor::Left, word, colour, out);
+        }
     }
 
     /// The amplitude now, at the last turning point, on a line at the scene's own damping.
@@ -86,8 +92,12 @@ impl Map {
         let x = -self.xi1.at(now.time);
         plot.draw_line([(x, plot.y.min), (x, plot.y.max)].into_iter(), 1.2, colour.with_alpha(0.6), out);
         if let Some([_, last]) = self.envelope.known(now.time) {
-            let amplitude = (self.envelope.at(last) * self.scales.length).min(plot.y.max);
-            plot.draw_marker(x, amplitude, colour, out);
+            let amplitude = self.envelope.at(last) * self.scales.length;
+            if amplitude > plot.y.max {
+                plot.draw_beyond(x, colour, out);
+            } else {
+                plot.draw_marker(x, amplitude, colour, out);
+            }
         }
     }
 }

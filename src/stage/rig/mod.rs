@@ -60,6 +60,12 @@ fn cuboid(half: [f32; 3], bevel: f32, place: [f32; 3], material: Material) -> Ob
     object(Arc::new(block(Vec3::from(half), bevel)), Vec3::from(place), material)
 }
 
+/// A block that stands on a plane: its lower bevel lies below the plane, where it would be a dark line that flickers.
+fn standing(half: [f32; 3], bevel: f32, [x, foot, z]: [f32; 3], material: Material) -> Object {
+    let [length, height, width] = half;
+    cuboid([length, height + 0.5 * bevel, width], bevel, [x, foot + height - 0.5 * bevel, z], material)
+}
+
 impl RigModel {
     /// Where mass 1 is moved from outside nothing excites itself.
     #[must_use]
