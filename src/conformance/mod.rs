@@ -1,11 +1,13 @@
 //! How wrong the engine is: numbers measured in it, beside what the theory of its configuration predicts and what the equations of
 //! motion say.
 //!
-//! A [`Scenario`] is a motion with a reference that shares no code with the engine. It has [`Case`]s, one per variant and
+//! A [`Scenario`] is a motion with a reference that shares the model description and the orbit solver only with
+//! the engine side. It has [`Case`]s, one per variant and
 //! [`Configuration`], and each yields [`Row`]s: a number, its prediction, its exact value, and two separate judgements (see [`Row`]'s
 //! module): a [`Verdict`] on the prediction, and [`Physics`] on the truth.
 
 mod advice;
+mod baseline;
 mod changes;
 mod configuration;
 mod cost;
@@ -29,14 +31,16 @@ mod scenarios;
 pub mod slider_map;
 mod switching;
 mod theory;
+mod words;
 
-pub use advice::{Advice, Fewest, HOPF_QUANTITY, advice};
+pub use advice::{Advice, Fewest, HOPF_QUANTITY, HOPF_WORST, advice};
+pub use baseline::{Baseline, Known};
 pub use changes::{Change, Changes};
 pub use configuration::{Configuration, Mechanism};
 pub use cost::costs;
 pub use document::{Cost, Machine, Parameters, Report, ScenarioNote, Timing};
 pub use error::ConformanceError;
-pub use exchange::{Score, ScoreCheck, Setup};
+pub use exchange::{Element, Judged, Prescribed, Quantity, Score, ScoreCheck, Setup, Start, setups};
 pub use experiment::{
     Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, bounded_row, finish_ladder, hook_cases,
     is_notable, ladder, tally,
@@ -50,3 +54,4 @@ pub use registry::registry;
 pub use row::{Basis, Judgement, Physics, Row, Subject, Verdict};
 pub use scenario::{Bench, Case, Depth, Rapier, Scenario, subject};
 pub use theory::{DifferenceEquation, hook_damping};
+pub use words::{about, found_and_expected, quantity_in_words};
