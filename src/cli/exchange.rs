@@ -68,7 +68,7 @@ pub fn judge(args: &JudgeArgs) -> anyhow::Result<Verdict> {
     for file in &args.files {
         match source.score(file) {
             Ok(score) => scores.push(score),
-            Err(error) => failures.push(format!("{error:#}")),
+            Err(error) => failures.push(error.to_string()),
         }
     }
     if args.common.json {

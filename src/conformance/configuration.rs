@@ -94,12 +94,19 @@ impl Configuration {
         })
     }
 
+    /// Those with friction averaged over the step, which is made for one substep and changes nothing where there is no friction.
+    pub fn averaged() -> impl Iterator<Item = Self> {
+        let all = Self::hooks().filter(|c| c.substeps == 1 && c.scheme == Scheme::SecondOrder);
+        all.map(|c| Self { scheme: Scheme::AveragedFriction, ..c })
+    }
+
     /// For readers: `f64, impulse joints, 1 substep, second-order recipe`.
     #[must_use]
     pub fn label(self) -> String {
         let Self { precision, joints, mechanism, substeps, scheme } = self;
         let scheme = match scheme {
             Scheme::SecondOrder => "half-step start, predicted velocity",
+            Scheme::AveragedFriction => "half-step start, predicted velocity, friction averaged over the step",
             Scheme::LaggingDamping => "half-step start, late velocity",
             Scheme::Plain => "velocity at face value",
         };
@@ -117,7 +124,7 @@ impl Configuration {
     pub fn short_name(self) -> String {
         let Self { precision, joints, substeps, scheme, .. } = self;
         let mut words = vec![scheme_name(scheme).to_owned()];
-        if (scheme, substeps) != (Scheme::SecondOrder, 1) {
+        if (substeps, self.is_staggered()) != (1, true) {
             words.push(format!("{substeps} substep{}", if substeps == 1 { "" } else { "s" }));
         }
         if joints == Joints::Multibody {
@@ -145,6 +152,11 @@ impl Configuration {
         words.join(", ")
     }
 
+    /// Whether positions, forces and velocities are all told at the instants they belong to.
+    fn is_staggered(self) -> bool {
+        matches!(self.scheme, Scheme::SecondOrder | Scheme::AveragedFriction)
+    }
+
     #[must_use]
     pub fn settings(self, step: f64) -> EngineSettings {
         let Self { precision, joints, substeps, scheme, .. } = self;
@@ -169,13 +181,14 @@ impl Configuration {
     /// Two where positions and forces are at the same instants, one otherwise: substeps move positions under a force that stands still.
     #[must_use]
     pub fn expected_order(self) -> f64 {
-        if self.scheme == Scheme::SecondOrder && self.substeps == 1 { 2.0 } else { 1.0 }
+        if self.is_staggered() && self.substeps == 1 { 2.0 } else { 1.0 }
     }
 }
 
 fn scheme_name(scheme: Scheme) -> &'static str {
     match scheme {
         Scheme::SecondOrder => "recipe",
+        Scheme::AveragedFriction => "recipe, friction averaged",
         Scheme::LaggingDamping => "late velocity",
         Scheme::Plain => "face value",
     }

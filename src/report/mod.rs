@@ -15,6 +15,7 @@ mod packed;
 mod page;
 mod picture;
 mod series;
+mod slim;
 mod ticks;
 
 pub use chart::Chart;

@@ -33,7 +33,10 @@ const unpack = details => {
   label(table);
 };
 document.querySelectorAll("table.sortable").forEach(label);
-document.querySelectorAll("details.packed").forEach(details => details.addEventListener("toggle", () => unpack(details)));
+document.querySelectorAll("details.packed").forEach(details => {
+  details.addEventListener("toggle", () => unpack(details));
+  unpack(details);
+});
 document.addEventListener("click", event => {
   const button = event.target.closest("table.sortable th button");
   if (!button) return;

@@ -235,6 +235,19 @@ fn the_page_is_whole_in_itself_and_leads_with_the_answer() {
 }
 
 #[test]
+fn the_page_is_readable_at_every_width_light_and_dark_with_all_tables_open() {
+    let page = html(&small_report(Depth::Full), None).unwrap();
+    let opened = page.replace("<details class=\"packed\">", "<details class=\"packed\" open>");
+    assert!(opened.len() > page.len(), "there are packed tables");
+    let complaint = r#"<script>if (document.querySelectorAll("details tbody tr").length < 10) console.error("rows are missing")</script>"#;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("report.html");
+    std::fs::write(&path, opened + complaint).unwrap();
+    let Some(seen) = super::browser::look_at(&path) else { return };
+    assert_eq!(super::browser::faults(&seen), Vec::<String>::new());
+}
+
+#[test]
 fn the_committed_schema_is_fresh_and_accepts_a_report() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/conformance.schema.json");
     let committed: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();

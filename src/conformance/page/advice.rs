@@ -74,7 +74,7 @@ pub(super) fn comparison(report: &Report, steps: u32) -> Grid {
             });
             error_in_percent(found)
         };
-        std::iter::once(text(configuration.label())).chain(COMPARED.iter().map(cell)).collect()
+        std::iter::once(text(configuration.short_name())).chain(COMPARED.iter().map(cell)).collect()
     };
     let configurations = report.advice.iter().map(|advice| advice.configuration).filter(|c| is_notable(*c));
     Grid {

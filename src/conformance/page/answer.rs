@@ -41,17 +41,17 @@ fn use_this(report: &Report) -> String {
             .to_owned();
     };
     let coarsest = match advice.all {
-        Fewest::AtMost(_) => format!(" ({steps} is the coarsest step at which all three were tried: fewer may do)"),
+        Fewest::AtMost(_) => format!(" {steps} is the coarsest step at which all three were tried: fewer may do."),
         _ => String::new(),
     };
     let motion = match advice.motion.enough() {
-        Some(motion) if motion <= steps => " and so is the motion itself over ten periods".to_owned(),
+        Some(motion) if motion <= steps => ", and so is the motion itself over ten periods".to_owned(),
         Some(motion) => format!("; the motion itself over ten periods takes {motion}"),
         None => "; the motion itself over ten periods was not right at any step run".to_owned(),
     };
     format!(
-        "Trust Rapier with {}, at {steps} or more steps per oscillation, dt ≤ 1/({steps} f) for the highest frequency f that matters: amplitude, frequency and \
-         Hopf point of the limit cycle are then within 1 %{coarsest}{motion}.",
+        "Trust Rapier with force laws of your own ({}) at {steps} or more steps per oscillation, dt ≤ 1/({steps} f) at f Hz: amplitude, frequency and Hopf point of the \
+         limit cycle are then within 1 %{motion}.{coarsest}",
         advice.configuration.label()
     )
 }
@@ -157,7 +157,7 @@ pub(super) const MULTIBODY: &str = "Multibody joints are second order too, if th
 /// The words about the recipe.
 pub(super) const RECIPE: &str = "The second-order recipe: one substep (num_solver_iterations = 1); forces evaluated at the positions x_n; velocities started half a step back, \
      v(-1/2) = v(0) - (h/2) a(0); and the velocity in damping laws predicted to the same instant, v(n) = v(n-1/2) + (h/2) a(n-1). It is what \
-     “half-step start, predicted velocity” means here; “late velocity” leaves the prediction out, “face value” takes the engine's \
+     “half-step start, predicted velocity” means here; “friction averaged” takes the mean of the friction force over the step in place of its value at x_n; “late velocity” leaves the prediction out, “face value” takes the engine's \
      velocity for the velocity, as a plain user does.";
 
 /// Formulae of numerical damping and frequency shift.

@@ -3,7 +3,7 @@
 use super::slopes::slopes;
 use crate::conformance::experiment::is_notable;
 use crate::conformance::ladder::ABOVE_FLOOR;
-use crate::conformance::{Configuration, Report, Row};
+use crate::conformance::{Configuration, HOPF_WORST, Report, Row, quantity_in_words};
 use crate::engine::{Joints, Precision, Scheme};
 use crate::report::{Figure, Panel, Series, Style, Tint};
 
@@ -27,7 +27,10 @@ pub(super) struct Curve {
 
 /// `error of damping`; `state error` says so itself.
 pub(super) fn axis_label(quantity: &str) -> String {
-    let words = crate::conformance::quantity_in_words(quantity);
+    if quantity == HOPF_WORST {
+        return "error of ξ₁ at the secondary Hopf point, worst phase".to_owned();
+    }
+    let words = quantity_in_words(quantity);
     if words.ends_with("error") || words.ends_with("residual") { words } else { format!("error of {words}") }
 }
 
@@ -84,7 +87,8 @@ impl Curve {
 
 /// With the first curve that it cannot be told from, or as a new one.
 fn add(curves: &mut Vec<Curve>, configuration: Configuration, points: Vec<(f64, f64)>) {
-    let close = |a: &(f64, f64), b: &(f64, f64)| a.0 == b.0 && (a.1 / b.1).ln().abs() <= SAME;
+    let near = |a: f64, b: f64| (a / b).ln().abs() <= SAME;
+    let close = |a: &(f64, f64), b: &(f64, f64)| near(a.0, b.0) && near(a.1, b.1);
     let same = |curve: &&mut Curve| {
         curve.points.len() == points.len() && curve.points.iter().zip(&points).all(|(a, b)| close(a, b))
     };
@@ -159,6 +163,8 @@ fn look(configuration: Configuration) -> (Style, Tint) {
         (Scheme::SecondOrder, Precision::Double, Joints::Impulse, _) => (Style::Line, Tint::Blue),
         (Scheme::SecondOrder, Precision::Double, Joints::Multibody, _) => (Style::Dashed, Tint::Green),
         (Scheme::SecondOrder, Precision::Single, ..) => (Style::Dashed, Tint::Sky),
+        (Scheme::AveragedFriction, Precision::Double, ..) => (Style::Dashed, Tint::Green),
+        (Scheme::AveragedFriction, Precision::Single, ..) => (Style::Dashed, Tint::Grey),
         (Scheme::LaggingDamping, ..) => (Style::Line, Tint::Orange),
         (Scheme::Plain, _, _, 1) => (Style::Line, Tint::Purple),
         (Scheme::Plain, Precision::Double, ..) => (Style::Line, Tint::Vermillion),

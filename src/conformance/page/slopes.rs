@@ -8,7 +8,7 @@ const WIDTH: f64 = 0.35;
 /// Distance of its slope from the curve, and room for its letters, in parts of the picture's height and width.
 const GAP: f64 = 0.04;
 const LETTERS: f64 = 0.08;
-/// A curve has the order of a triangle if its slope is that near.
+/// A curve has the order of a triangle if its slope, over the width of the triangle, is that near.
 const ALIKE: f64 = 0.15;
 const ORDERS: [f64; 2] = [2.0, 1.0];
 
@@ -49,8 +49,13 @@ impl Place {
         self.x.1 < other.x.0 || other.x.1 < self.x.0 || self.y.1 < other.y.0 || other.y.1 < self.y.0
     }
 
-    fn holds(&self, (x, y): (f64, f64)) -> bool {
-        (self.x.0..=self.x.1).contains(&x) && (self.y.0..=self.y.1).contains(&y)
+    /// Whether a curve runs through the triangle or its letters, or nearer than `gap` above its slope.
+    fn is_crossed_by(&self, curve: &[(f64, f64)], gap: f64) -> bool {
+        (0..=20).any(|n| {
+            let x = self.x.0 + (self.x.1 - self.x.0) * f64::from(n) / 20.0;
+            let slope = self.corner.1 + self.order * (x - self.x.0).min(WIDTH);
+            height(curve, x).is_some_and(|y| (self.y.0..=slope + gap).contains(&y))
+        })
     }
 }
 
@@ -67,31 +72,34 @@ fn places(curve: &[(f64, f64)], order: f64, curves: &[Vec<(f64, f64)>]) -> Vec<P
         (0..20).map(|n| x.1 - WIDTH - LETTERS * wide - 0.05 * wide * f64::from(n)).take_while(|start| *start > x.0);
     starts
         .filter_map(|start| {
-            let (left, right) = (height(curve, start)?, height(curve, start + WIDTH)?);
-            if ((right - left) / WIDTH - order).abs() > ALIKE {
-                return None;
-            }
-            // The slope ends below the lower of the two distances to the curve.
-            let low = left.min(right - order * WIDTH) - GAP * tall;
+            let base = base(curve, start, order)?;
+            let low = base - GAP * tall;
             let place = Place {
                 corner: (start, low),
                 order,
                 x: (start, start + WIDTH + LETTERS * wide),
                 y: (low - LETTERS * tall, low + order * WIDTH),
             };
-            let free = place.y.0 >= y.0 - 0.02 * tall && !curves.iter().any(|other| crosses(other, &place, curve));
+            let free = place.y.0 >= y.0 - 0.02 * tall
+                && !curves.iter().filter(|other| *other != curve).any(|other| place.is_crossed_by(other, GAP * tall));
             free.then_some(place)
         })
         .collect()
 }
 
-/// Whether another curve runs through the box. The triangle's own lies above its slope, and through a corner of the box at most.
-fn crosses(other: &[(f64, f64)], place: &Place, own: &[(f64, f64)]) -> bool {
-    other != own
-        && (0..=20).any(|n| {
-            let x = place.x.0 + (place.x.1 - place.x.0) * f64::from(n) / 20.0;
-            height(other, x).is_some_and(|y| place.holds((x, y)))
-        })
+/// Height at `start` of the highest line of the triangle's slope that stays under the curve; none where the curve is not straight and of that
+/// slope.
+fn base(curve: &[(f64, f64)], start: f64, order: f64) -> Option<f64> {
+    let above = |n: u32| {
+        let x = WIDTH * f64::from(n) / 10.0;
+        height(curve, start + x).map(|y| y - order * x)
+    };
+    let heights = (0..=10).map(above).collect::<Option<Vec<f64>>>()?;
+    let (low, high) = (
+        heights.iter().copied().fold(f64::INFINITY, f64::min),
+        heights.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    );
+    (high - low <= ALIKE * WIDTH).then_some(low)
 }
 
 /// The curve at x, between its points.
@@ -116,13 +124,15 @@ mod tests {
         let top = height(&curves[0], first.corner.0).unwrap();
         assert!(first.corner.1 < top && first.corner.1 > height(&curves[1], first.corner.0).unwrap());
         assert!(places(&curves[1], 1.0, &curves).is_empty(), "its order is 2");
+        let bent = vec![vec![(-2.0, -2.0), (-1.5, -1.0), (-1.0, -1.0)]];
+        assert!(places(&bent[0], 1.0, &bent).is_empty(), "from end to end of order 1, and nowhere between");
     }
 
     #[test]
     fn there_is_no_triangle_where_another_curve_is_in_the_way() {
         let free = vec![line(1.0, 0.0), line(1.0, -3.0)];
         assert!(!places(&free[0], 1.0, &free).is_empty());
-        let narrow = vec![line(1.0, 0.0), line(1.0, -0.2), line(1.0, -3.0)];
+        let narrow = vec![line(1.0, 0.0), line(1.0, -0.3), line(1.0, -3.0)];
         assert!(places(&narrow[0], 1.0, &narrow).is_empty());
     }
 }

@@ -18,7 +18,7 @@
 //! phase are of first order, and only their mean over the phases is of second.
 
 use crate::compare::observed_order;
-use crate::conformance::experiment::{RIGHT, hook_cases};
+use crate::conformance::experiment::{RIGHT, friction_cases};
 use crate::conformance::hopf::{CycleProblem, HopfError, HopfPoint, Source, at_step, over_phases, phases};
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::{
@@ -76,7 +76,7 @@ impl Scenario for SecondaryHopf {
             Depth::Quick => (variant_of(2), QUICK.to_vec()),
             Depth::Full => (variant_of(8), FULL.to_vec()),
         };
-        let mut cases = hook_cases(ID, &variant, depth);
+        let mut cases = friction_cases(ID, &variant, depth);
         for case in &mut cases {
             let lowest = if exists_at_coarse_steps(case.configuration) { 0 } else { FEWEST_FOR_FIRST_ORDER };
             case.steps = steps.iter().copied().filter(|n| *n >= lowest).collect();
