@@ -110,9 +110,46 @@ impl Configuration {
             Scheme::LaggingDamping => "half-step start, late velocity",
             Scheme::Plain => "velocity at face value",
         };
-        let mechanism = if mechanism == Mechanism::Hook { String::new() } else { format!("{}, ", mechanism.word()) };
+        let mechanism = if mechanism == Mechanism::Hook {
+            String::new()
+        } else {
+            format!("{}, ", mechanism.word().replace('_', " "))
+        };
         let plural = if substeps == 1 { "" } else { "s" };
         format!("{}, {} joints, {mechanism}{substeps} substep{plural}, {scheme}", precision.word(), joints.word())
+    }
+
+    /// For legends, of the force laws as hooks: `recipe`, `face value, 4 substeps, f32`.
+    #[must_use]
+    pub fn short_name(self) -> String {
+        let Self { precision, joints, substeps, scheme, .. } = self;
+        let mut words = vec![scheme_name(scheme).to_owned()];
+        if (substeps, self.is_staggered()) != (1, true) {
+            words.push(format!("{substeps} substep{}", if substeps == 1 { "" } else { "s" }));
+        }
+        if joints == Joints::Multibody {
+            words.push("multibody joints".to_owned());
+        }
+        if precision == Precision::Single {
+            words.push("f32".to_owned());
+        }
+        words.join(", ")
+    }
+
+    /// What it has unlike another configuration: `multibody joints`.
+    #[must_use]
+    pub fn unlike(self, other: Self) -> String {
+        if self.scheme != other.scheme || self.substeps != other.substeps {
+            return self.short_name();
+        }
+        let mut words = Vec::new();
+        if self.joints != other.joints {
+            words.push(format!("{} joints", self.joints.word()));
+        }
+        if self.precision != other.precision {
+            words.push(self.precision.word().to_owned());
+        }
+        words.join(", ")
     }
 
     /// Whether positions, forces and velocities are all told at the instants they belong to.
@@ -145,6 +182,15 @@ impl Configuration {
     #[must_use]
     pub fn expected_order(self) -> f64 {
         if self.is_staggered() && self.substeps == 1 { 2.0 } else { 1.0 }
+    }
+}
+
+fn scheme_name(scheme: Scheme) -> &'static str {
+    match scheme {
+        Scheme::SecondOrder => "recipe",
+        Scheme::AveragedFriction => "recipe, friction averaged",
+        Scheme::LaggingDamping => "late velocity",
+        Scheme::Plain => "face value",
     }
 }
 

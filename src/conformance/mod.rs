@@ -8,6 +8,7 @@
 //! module): a [`Verdict`] on the prediction, and [`Physics`] on the truth.
 
 mod advice;
+mod baseline;
 mod changes;
 mod configuration;
 mod cost;
@@ -32,14 +33,16 @@ mod scenarios;
 pub mod slider_map;
 mod switching;
 mod theory;
+mod words;
 
-pub use advice::{Advice, Fewest, HOPF_QUANTITY, advice};
+pub use advice::{Advice, Fewest, HOPF_QUANTITY, HOPF_WORST, advice};
+pub use baseline::{Baseline, Known};
 pub use changes::{Change, Changes};
 pub use configuration::{Configuration, Mechanism};
 pub use cost::costs;
 pub use document::{Cost, Machine, Parameters, Report, ScenarioNote, Timing};
 pub use error::ConformanceError;
-pub use exchange::{Score, ScoreCheck, Setup};
+pub use exchange::{Element, Judged, Prescribed, Quantity, Score, ScoreCheck, Setup, Start, setups};
 pub use experiment::{
     Experiment, FULL_LADDER, Measured, QUICK_LADDER, RIGHT, StateError, Tally, bounded_row, finish_ladder,
     friction_cases, hook_cases, is_notable, ladder, tally,
@@ -53,3 +56,4 @@ pub use registry::registry;
 pub use row::{Basis, Judgement, Physics, Row, Subject, Verdict};
 pub use scenario::{Bench, Case, Depth, Rapier, Scenario, subject};
 pub use theory::{DifferenceEquation, hook_damping};
+pub use words::{about, found_and_expected, quantity_in_words};
