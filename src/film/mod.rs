@@ -2,7 +2,8 @@
 //!
 //! A frame is a pure function of its index, and its time is `index / frames_per_second`. Drawing happens on the calling thread; PNG
 //! files and the video are encoded on one further thread each, behind queues of two pictures: at most seven pictures are in memory,
-//! however long the film is. Besides them only the compressed film (a few kB per frame) and a sum per frame are held.
+//! however long the film is. Besides them only the compressed film (a few kB per frame) and a sum per frame are held; an ffmpeg is sent
+//! its pictures through a pipe and writes the film to a temporary file.
 //!
 //! A frame on disk is trusted if the journal of the output directory lists it as finished, for the same parameters, size and drawing
 //! device, and its bytes still have the SHA-256 recorded there. Anything else is drawn again. The bytes of frames and film depend on the

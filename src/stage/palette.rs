@@ -27,6 +27,8 @@ pub struct Palette {
     /// The exact solution beside the engine's.
     pub ghost: Colour,
     pub floor: Material,
+    /// Arrow of the normal force.
+    pub normal_force: Material,
     sun: f32,
     sky: Colour,
     ground: Colour,
@@ -48,6 +50,7 @@ const DARK: Palette = Palette {
     damping: Colour::rgb(0x8f9ba8),
     ghost: Colour::rgb(0xffffff),
     floor: material(0x262e36, 0.8, 0.0),
+    normal_force: Material { glow: 0.12, ..material(0xd4dae0, 0.6, 0.0) },
     sun: 2.5,
     sky: Colour::rgb(0x9db4cc),
     ground: Colour::rgb(0x4a4640),
@@ -69,6 +72,7 @@ const LIGHT: Palette = Palette {
     damping: Colour::rgb(0x6c7885),
     ghost: Colour::rgb(0x18202a),
     floor: material(0xc9d0d7, 0.9, 0.0),
+    normal_force: material(0x2c3640, 0.5, 0.0),
     sun: 1.5,
     sky: Colour::rgb(0xc3cedb),
     ground: Colour::rgb(0x8f8a84),
@@ -134,7 +138,6 @@ pub const BARREL: Material = material(0x4a545e, 0.4, 0.6);
 pub const ROD: Material = material(0xe6eaee, 0.18, 0.95);
 pub const BRASS: Material = material(0xd9b15f, 0.3, 0.95);
 pub const PAD: Material = material(0x4a3d35, 0.95, 0.0);
-pub const NORMAL_FORCE: Material = Material { glow: 0.12, ..material(0xd4dae0, 0.6, 0.0) };
 
 /// Painted body in a data colour.
 pub fn painted(colour: Colour) -> Material {

@@ -36,6 +36,7 @@ mod disk_cli;
 #[cfg(feature = "engine")]
 mod disk_engine;
 mod disk_exact;
+mod disk_film;
 mod disk_flutter;
 mod disk_linear;
 mod disk_waves;
@@ -51,6 +52,7 @@ mod film;
 mod general_solver;
 #[cfg(feature = "render")]
 mod golden;
+mod golden_disk;
 mod harmonic_balance;
 mod hopf;
 #[cfg(feature = "engine")]

@@ -1,5 +1,6 @@
 //! `disk`: nonlinear analysis of the bladed disk of a scene.
 
+mod conventions;
 mod cycle;
 pub mod filmed;
 mod flutter;
@@ -14,7 +15,7 @@ use anyhow::Context;
 use clap::{Args, Subcommand};
 use std::path::Path;
 
-/// Bladed disks: travelling-wave limit cycles, wave competition, flutter under random mistuning.
+/// Bladed disks: travelling-wave limit cycles, wave competition, flutter under random mistuning. `run` and `render` film them.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip disk waves scenes/disk_forward_wave.toml")]
 pub struct DiskArgs {
@@ -28,6 +29,7 @@ enum What {
     Cycle(cycle::CycleArgs),
     Simulate(motion::MotionArgs),
     Flutter(flutter::FlutterArgs),
+    Conventions(conventions::ConventionsArgs),
 }
 
 pub fn run(args: &DiskArgs) -> anyhow::Result<Verdict> {
@@ -36,6 +38,7 @@ pub fn run(args: &DiskArgs) -> anyhow::Result<Verdict> {
         What::Cycle(args) => cycle::run(args),
         What::Simulate(args) => motion::run(args),
         What::Flutter(args) => flutter::run(args),
+        What::Conventions(args) => conventions::run(args),
     }
 }
 

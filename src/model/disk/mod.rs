@@ -16,6 +16,8 @@
 //! The nodal diameter is signed, `-N/2 < n <= N/2`; `n = 0` and `n = N/2` are standing. Much of the literature takes the opposite sign
 //! of sigma: compare the direction of travel, not the sign.
 //!
+#![doc = include_str!("../../../assets/disk_conventions.svg")]
+//!
 //! # Aerodynamic forces
 //!
 //! The motion of blade j+k acts on blade j through the complex influence coefficient `L_k`, on the left of the equation of motion:

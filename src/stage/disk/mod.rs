@@ -14,7 +14,6 @@ pub use motion::{DiskInstant, DiskMotion};
 
 use super::layout::Layout;
 use super::palette::Palette;
-use crate::model::BladedDisk;
 use crate::render::{Camera, DrawList, Light};
 use crate::scene::{CameraMove, Case, Direction, View};
 use glam::Vec3;
@@ -34,7 +33,6 @@ const SMALLEST: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct DiskStage {
     case: Case,
-    disk: BladedDisk,
     motion: DiskMotion,
     exact: Option<DiskMotion>,
     palette: Palette,
@@ -56,7 +54,7 @@ impl DiskStage {
         let panels = Panels::new(&case, &frame, &layout.panels);
         let model = DiskModel::new(&disk, colours, case.direction.magnification as f32, palette);
         let words = Words::new(&disk, &motion, &model, layout.scale, palette);
-        Some(Self { disk, exact, palette, layout, model, panels, words, case, motion })
+        Some(Self { exact, palette, layout, model, panels, words, case, motion })
     }
 
     /// Frames that show the motion from its start to its end; fewer than the scene asks for where the motion diverged.
@@ -77,9 +75,10 @@ impl DiskStage {
         self.motion.end()
     }
 
+    /// Mean period of the motion.
     #[must_use]
-    pub fn disk(&self) -> &BladedDisk {
-        &self.disk
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU / self.motion.angular_frequency()
     }
 
     /// What a frame shows.

@@ -16,7 +16,7 @@ const HUB_HALF: f32 = 0.15;
 /// Radius of the line through the tips beyond them, and that of its zero.
 const LINE_BEYOND: f32 = 0.1;
 /// Light given off by a contact that sticks, and one that slips.
-const GLOW: [f32; 2] = [0.0, 0.45];
+const GLOW: [f32; 2] = [0.0, 0.2];
 /// Points of the line through the tips, at most.
 const MOST_POINTS: usize = 240;
 

@@ -37,7 +37,10 @@ pub(super) struct Map {
 
 impl Map {
     pub fn new(frame: &Frame<'_>, place: Rectangle, map: DampingMap, xi1: Excitation) -> Self {
-        let strongest = map.motions.iter().map(|motion| -motion.0).fold(-1.05 * xi1.strongest(), f64::max).max(0.02);
+        // The edge of divergence is seen with a little beyond it.
+        let edge = map.divergence.map(|edge| -1.15 * edge);
+        let values = map.motions.iter().map(|motion| -motion.0).chain(edge);
+        let strongest = values.fold(-1.05 * xi1.strongest(), f64::max).max(0.02);
         let axes = [Axis::exactly((-xi1.start).min(0.0), strongest), Axis::exactly(0.0, HIGHEST * frame.scales.length)];
         let labels = ["−ξ₁".to_owned(), frame.label("a₁", "m")];
         let plot = frame.plot(place, "Amplitude over self-excitation", labels, axes);
@@ -71,18 +74,26 @@ impl Map {
             let beside = Vec2::new(-4.0, -5.0);
             plot.draw_word([-edge, plot.y.min], beside, Anchor::Right, "diverges", palette.slip, out);
         }
-        self.draw_legend(out);
         self.draw_here(now, out);
     }
 
     /// What the lines and dots are, in the corner that amplitudes near the slip limit leave free.
     fn draw_legend(&self, out: &mut Vec<OverlayItem>) {
         let (plot, palette) = (&self.plot, &self.plot.palette);
-        let words =
-            [("stable cycle", palette.stick), ("unstable", palette.excitation), ("least and most", palette.faint_text)];
+        let words = [
+            ("stable cycle", palette.stick),
+            ("unstable", palette.excitation),
+            ("range of motion", palette.faint_text),
+        ];
+        let corner = [plot.x.min, plot.y.max];
+        // The line of the scene's own damping may pass here.
+        let place = plot.pixel(corner[0], corner[1]) + Vec2::new(2.0, 1.0) * plot.scale;
+        let area = Rectangle { min: place, max: place + Vec2::new(88.0, 38.0) * plot.scale };
+        let fill = palette.panel.with_alpha(0.85);
+        out.push(OverlayItem::Box { area, corner_radius: 0.0, fill, stroke: None });
         for (row, (word, colour)) in words.into_iter().enumerate() {
             let shift = Vec2::new(5.0, 11.0 + 12.0 * row as f32);
-            plot.draw_word([plot.x.min, plot.y.max], shift, Anchor::Left, word, colour, out);
+            plot.draw_word(corner, shift, Anchor::Left, word, colour, out);
         }
     }
 
@@ -91,6 +102,7 @@ impl Map {
         let (plot, colour) = (&self.plot, self.plot.palette.masses[0]);
         let x = -self.xi1.at(now.time);
         plot.draw_line([(x, plot.y.min), (x, plot.y.max)].into_iter(), 1.2, colour.with_alpha(0.6), out);
+        self.draw_legend(out);
         if let Some([_, last]) = self.envelope.known(now.time) {
             let amplitude = self.envelope.at(last) * self.scales.length;
             if amplitude > plot.y.max {

@@ -79,7 +79,7 @@ impl Jenkins {
         let downwards = Mat3::from_cols(Vec3::NEG_Y, Vec3::X, Vec3::Z);
         let transform = Affine3A::from_mat3_translation(downwards, Vec3::new(x, NORMAL_TOP, z));
         let mesh = self.normal_force.clone();
-        objects.push(Object { mesh, transform, material: palette::NORMAL_FORCE, casts_shadow: true });
+        objects.push(Object { mesh, transform, material: palette.normal_force, casts_shadow: true });
         // A bracket carries the spring in front of carriage 1.
         let face = carriage - HALF - 0.05;
         objects.push(cuboid([0.045, 0.1, 0.14], 0.015, [face + 0.05, y, z], palette::SHOE));

@@ -10,7 +10,7 @@ use glam::Vec2;
 use std::f64::consts::TAU;
 
 /// How clearly the waves shown are drawn, the strongest first.
-const CLARITY: [f32; 4] = [1.0, 0.75, 0.55, 0.4];
+const CLARITY: [f32; 4] = [1.0, 0.8, 0.65, 0.5];
 /// Instants of a period that a mean is taken over.
 const INSTANTS: u32 = 8;
 
@@ -66,12 +66,17 @@ impl Waves {
         plot.draw_frame(out);
         let current = means(motion, &self.spectrum, now.time, self.period);
         let known = self.points.partition_point(|(time, _)| *time <= now.time);
+        let place_of = |index: usize| plot.pixel(now.time, current[index]);
         for (place, (index, colour)) in self.colours().enumerate().rev() {
             let past = self.points[..known].iter().map(|(time, a)| (*time, a[place]));
             plot.draw_line(past.chain([(now.time, current[index])]), 1.8, colour, out);
             plot.draw_marker(now.time, current[index], colour, out);
             // At the side of the mark that has room.
-            let pixel = plot.pixel(now.time, current[index]);
+            let pixel = place_of(index);
+            // Where a stronger wave has its name there is no room for another.
+            if self.shown[..place].iter().any(|&other| (place_of(other).y - pixel.y).abs() < 12.0 * plot.scale) {
+                continue;
+            }
             let has_room = pixel.x < plot.area().max.x - 34.0 * plot.scale;
             let (side, anchor) = if has_room { (9.0, Anchor::Left) } else { (-9.0, Anchor::Right) };
             out.push(OverlayItem::Text {
