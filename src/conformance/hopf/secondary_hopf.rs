@@ -73,11 +73,11 @@ pub fn secondary_hopf(problem: &CycleProblem<'_>, guess: f64) -> Result<HopfPoin
 }
 
 /// The same, next to a point that is known for another map of the same settings: from its orbit, and by one step along its slope if that is
-/// enough, else by the whole search.
+/// enough, else by the whole search from `guess`.
 ///
 /// # Errors
 /// As [`secondary_hopf`].
-pub fn secondary_hopf_near(problem: &CycleProblem<'_>, known: &HopfPoint) -> Result<HopfPoint, HopfError> {
+pub fn secondary_hopf_near(problem: &CycleProblem<'_>, known: &HopfPoint, guess: f64) -> Result<HopfPoint, HopfError> {
     if known.jump == 0.0
         && let Ok(orbit) = problem.at(known.xi1).orbit_near(&known.orbit)
     {
@@ -87,7 +87,8 @@ pub fn secondary_hopf_near(problem: &CycleProblem<'_>, known: &HopfPoint) -> Res
             return Ok(HopfPoint { xi1: known.xi1 - here.excess() / known.slope, ..point });
         }
     }
-    secondary_hopf(problem, known.xi1)
+    // Not from the point itself: at a jump a switch lies on a grid time there.
+    secondary_hopf(problem, guess)
 }
 
 /// An orbit on the way to the Hopf point.
@@ -190,7 +191,7 @@ pub fn pairs_over_phases(
 ) -> Result<Vec<[HopfPoint; 2]>, HopfError> {
     let at = |phase: f64| {
         let known = secondary_hopf(&CycleProblem { phase, ..*reference }, guess)?;
-        Ok([secondary_hopf_near(&CycleProblem { phase, ..*problem }, &known)?, known])
+        Ok([secondary_hopf_near(&CycleProblem { phase, ..*problem }, &known, guess)?, known])
     };
     let moved = |phase: f64| {
         let mut found = at(phase);
