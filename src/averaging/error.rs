@@ -30,6 +30,10 @@ pub enum AveragingError {
     NoLimitCycle { xi1: f64, amplitude: f64 },
     #[error("Newton's method for {what} did not converge near {at:?}: residual {residual:e}")]
     NoConvergence { what: &'static str, at: Vec<f64>, residual: f64 },
+    #[error(
+        "the averaged motion has no mean frequency at time {time}: all oscillators rest, or their mean stiffness is not positive. Start with an amplitude, or give a carrier frequency"
+    )]
+    NoCarrier { time: f64 },
     #[error("the slow flow could not be integrated beyond time {time}: {reason}")]
     Integration { time: f64, reason: String },
     #[error("the slow motion from {from:?} leaves the energies up to {end} at time {time}")]

@@ -14,8 +14,11 @@
 //! | `integration` | the slow flow in time |
 //! | `perturbation` | (25)-(30) |
 //! | `motion`, `restored_flow` | the fast oscillation restored, (4)-(5) |
+//! | `chain_flow`, `chain_integration` | the slow flow of N oscillators and any number of elements |
 //! | `torus`, `torus_branch`, `doublings` | its limit cycles and their period doublings (Table 1) |
 
+mod chain_flow;
+mod chain_integration;
 mod describing;
 mod doublings;
 mod energy;
@@ -33,6 +36,7 @@ mod slow_flow;
 mod torus;
 mod torus_branch;
 
+pub use chain_flow::{Carrier, ChainSlowArrival, ChainSlowFlow, ChainSlowState};
 pub use describing::DescribingFunction;
 pub use doublings::{DoublingCascade, PeriodDoubling, doubling_cascade, period_doublings};
 pub use energy::EnergyDefinition;

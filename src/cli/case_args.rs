@@ -58,6 +58,10 @@ impl RigArgs {
             return Ok(());
         }
         ensure!(
+            scene.disk.is_none(),
+            "--xi1, --xi2, --kappa and --gamma are about the two-mass rig, but the scene is about a bladed disk: change [disk] in the scene"
+        );
+        ensure!(
             scene.rig_si.is_none(),
             "--xi1, --xi2, --kappa and --gamma are non-dimensional, but the scene gives its rig in SI units ([rig_si]): change them in the scene"
         );
@@ -161,7 +165,7 @@ impl SceneArgs {
         self.rig.apply(&mut scene)?;
         self.engine.apply(&mut scene);
         self.film.apply(&mut scene);
-        check(&scene, self.scene.as_deref())
+        checked(&scene, self.scene.as_deref())
     }
 }
 
@@ -181,13 +185,22 @@ pub fn load(path: Option<&Path>) -> anyhow::Result<Scene> {
     Ok(scene)
 }
 
+fn origin(path: Option<&Path>) -> String {
+    path.map_or_else(|| "built in".to_owned(), |path| path.display().to_string())
+}
+
 /// Checks the changed scene; `path` names it in errors.
+fn checked(scene: &Scene, path: Option<&Path>) -> anyhow::Result<Case> {
+    scene.checked(&origin(path)).context("scene with the options given")
+}
+
+/// Checks a changed scene of the two-mass rig.
 pub fn check(scene: &Scene, path: Option<&Path>) -> anyhow::Result<Case> {
-    let origin = path.map_or_else(|| "built in".to_owned(), |path| path.display().to_string());
-    let case = scene.checked(&origin).context("scene with the options given")?;
+    let case = checked(scene, path)?;
     ensure!(
         case.disk.is_none(),
-        "scene {origin} is about a bladed disk, this command about the two-mass rig: take `modes` or `disk`"
+        "scene {} is about a bladed disk, this command about the two-mass rig: take `modes`, `disk`, `run` or `render`",
+        origin(path)
     );
     Ok(case)
 }

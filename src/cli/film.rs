@@ -6,7 +6,7 @@ use crate::engine::{BodyPose, BodyRole, Recording, RigGeometry};
 use crate::film::{self, Encoder, Ffmpeg, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
 use crate::render::{AdapterInfo, Colour, DrawList, OverlayItem, Rectangle, Renderer, RendererChoice};
 use crate::scene::{Backdrop, Case, Film};
-use crate::stage::{Beside, Body, Motion, Stage};
+use crate::stage::{Beside, Body, DiskMotion, DiskStage, Motion, Stage, Take};
 use crate::store::{OutputDir, sha256_hex};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
@@ -128,7 +128,7 @@ const FADE: f64 = 0.3;
 
 /// The stages of a film, one after the other.
 struct Source {
-    stages: Vec<Stage>,
+    stages: Vec<Take>,
     size: [u32; 2],
     /// Frames of a fade.
     fade: u64,
@@ -136,7 +136,7 @@ struct Source {
 
 impl Source {
     /// The stage of a frame of the film, and the frame's number in it.
-    fn locate(&self, index: u64) -> Option<(&Stage, u64)> {
+    fn locate(&self, index: u64) -> Option<(&Take, u64)> {
         let mut first = 0;
         self.stages.iter().find_map(|stage| {
             let number = index.checked_sub(first)?;
@@ -146,7 +146,7 @@ impl Source {
     }
 
     /// How dark a frame is beside a cut, 0 to 1. A film of one stage has no cut.
-    fn darkness(&self, stage: &Stage, number: u64, index: u64) -> f32 {
+    fn darkness(&self, stage: &Take, number: u64, index: u64) -> f32 {
         let to_end = stage.frame_count() - 1 - number;
         let before = if index == number { self.fade } else { number };
         let after = if index + to_end + 1 == self.count() { self.fade } else { to_end };
@@ -156,7 +156,7 @@ impl Source {
 
 impl FrameSource for Source {
     fn count(&self) -> u64 {
-        self.stages.iter().map(Stage::frame_count).sum()
+        self.stages.iter().map(Take::frame_count).sum()
     }
 
     fn frame(&self, index: u64) -> Result<DrawList, SourceError> {
@@ -178,11 +178,9 @@ impl FrameSource for Source {
 
     fn state(&self, index: u64) -> Option<FrameState> {
         let (stage, number) = self.locate(index)?;
-        let now = stage.instant(number);
-        let [[x1, x2], [v1, v2]] = [now.positions, now.velocities];
-        let bytes: Vec<u8> =
-            [now.time, x1, x2, v1, v2, now.slider_force].into_iter().flat_map(f64::to_le_bytes).collect();
-        Some(FrameState { time: now.time, sha256: sha256_hex(&bytes) })
+        let numbers = stage.numbers(number);
+        let bytes: Vec<u8> = numbers.iter().copied().flat_map(f64::to_le_bytes).collect();
+        Some(FrameState { time: *numbers.first()?, sha256: sha256_hex(&bytes) })
     }
 }
 
@@ -193,28 +191,42 @@ pub struct Made {
 }
 
 /// The motion to film, and the exact one beside it.
-pub struct Shown {
-    motion: Motion,
-    reference: Option<Motion>,
+pub enum Shown {
+    Rig { motion: Motion, reference: Option<Motion> },
+    Disk { motion: DiskMotion, reference: Option<DiskMotion> },
 }
 
 const NOT_THE_RIG: &str = "the motion is not one of two masses and one slider";
+const NOT_THE_DISK: &str = "the motion is not one of the scene's disk";
 
 impl Shown {
     /// A motion without bodies.
-    pub fn of(trajectory: &Trajectory) -> anyhow::Result<Self> {
-        Ok(Self { motion: Motion::new(trajectory).context(NOT_THE_RIG)?, reference: None })
+    pub fn of(case: &Case, trajectory: &Trajectory) -> anyhow::Result<Self> {
+        if let Some(disk) = &case.disk {
+            let motion = DiskMotion::new(&disk.disk, trajectory)?.context(NOT_THE_DISK)?;
+            return Ok(Self::Disk { motion, reference: None });
+        }
+        Ok(Self::Rig { motion: Motion::new(trajectory).context(NOT_THE_RIG)?, reference: None })
     }
 
-    /// The engine's motion with its own bodies.
-    pub fn of_engine(recording: &Recording) -> anyhow::Result<Self> {
+    /// The engine's motion, that of the rig with its own bodies.
+    pub fn of_engine(case: &Case, recording: &Recording) -> anyhow::Result<Self> {
+        if case.disk.is_some() {
+            return Self::of(case, &recording.trajectory);
+        }
         let bodies: Option<Vec<_>> = recording.poses.iter().map(|poses| carriages(poses)).collect();
         let motion = Motion::new(&recording.trajectory).zip(bodies).and_then(|(motion, b)| motion.with_bodies(&b));
-        Ok(Self { motion: motion.context(NOT_THE_RIG)?, reference: None })
+        Ok(Self::Rig { motion: motion.context(NOT_THE_RIG)?, reference: None })
     }
 
-    pub fn beside(self, exact: &Trajectory) -> Self {
-        Self { reference: Motion::new(exact), ..self }
+    pub fn beside(self, case: &Case, exact: &Trajectory) -> anyhow::Result<Self> {
+        Ok(match (self, Self::of(case, exact)?) {
+            (Self::Rig { motion, .. }, Self::Rig { motion: exact, .. }) => Self::Rig { motion, reference: Some(exact) },
+            (Self::Disk { motion, .. }, Self::Disk { motion: exact, .. }) => {
+                Self::Disk { motion, reference: Some(exact) }
+            }
+            (shown, _) => shown,
+        })
     }
 }
 
@@ -234,12 +246,19 @@ fn carriages(poses: &[BodyPose]) -> Option<[Body; 2]> {
 }
 
 /// A case with its motion, ready to be drawn `supersample` times as large as its film.
-pub fn stage(case: &Case, shown: Shown, supersample: u32, progress: &Progress) -> anyhow::Result<Stage> {
-    let map = super::damping_map::of(case, progress)?;
+pub fn stage(case: &Case, shown: Shown, supersample: u32, progress: &Progress) -> anyhow::Result<Take> {
     let mut case = case.clone();
     case.film.width *= supersample;
     case.film.height *= supersample;
-    Ok(Stage::new(case, shown.motion, Beside { exact: shown.reference, map }))
+    match shown {
+        Shown::Rig { motion, reference } => {
+            let map = super::damping_map::of(&case, progress)?;
+            Ok(Take::Rig(Box::new(Stage::new(case, motion, Beside { exact: reference, map }))))
+        }
+        Shown::Disk { motion, reference } => {
+            Ok(Take::Disk(Box::new(DiskStage::new(case, motion, reference).context("the scene has no disk")?)))
+        }
+    }
 }
 
 /// Opens what draws, and says which it is.
@@ -252,7 +271,7 @@ pub fn renderer(args: &DrawArgs, progress: &Progress) -> anyhow::Result<Box<dyn 
 
 /// Draws the frames of the stages that are missing, one stage after the other, and makes the film.
 pub fn make(
-    stages: Vec<Stage>,
+    stages: Vec<Take>,
     film: &Film,
     args: &DrawArgs,
     output: &OutputDir,

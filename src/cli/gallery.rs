@@ -7,8 +7,8 @@ use super::motions;
 use super::progress::Progress;
 use crate::film::{encode_small_png, gif, scaled};
 use crate::render::Renderer;
-use crate::scene::{BUILT_IN, Case, Scene};
-use crate::stage::Stage;
+use crate::scene::{BUILT_IN, BUILT_IN_DISKS, Case, Scene};
+use crate::stage::Take;
 use crate::store::write_atomically;
 use anyhow::Context;
 use clap::Args;
@@ -24,6 +24,10 @@ const PICTURE_AT: f64 = 0.62;
 const LOOP_AT: f64 = 0.45;
 /// A loop shows the motion slower than the film, for its few frames a second.
 const LOOP_SPEED: f64 = 0.5;
+/// The disk of the gallery, width of its loop and its frames, which show one period of a wave: the loop has no seam.
+const DISK: &str = "disk_forward_wave";
+const DISK_LOOP: u32 = 360;
+const DISK_LOOP_FRAMES: u32 = 18;
 
 /// A picture and a short loop of every built-in scene.
 #[derive(Debug, Args)]
@@ -49,6 +53,12 @@ pub fn run(args: &GalleryArgs) -> anyhow::Result<Verdict> {
         write(&path("png"), &picture(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
         write(&path("gif"), &short_loop(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
     }
+    for (name, text) in BUILT_IN_DISKS.into_iter().filter(|(name, _)| *name == DISK) {
+        let (_, case) = Scene::parse(text, name)?;
+        let path = |extension: &str| args.output.join(format!("{name}.{extension}"));
+        write(&path("png"), &picture(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
+        write(&path("gif"), &one_period(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
+    }
     Ok(Verdict::Done)
 }
 
@@ -58,9 +68,9 @@ fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 }
 
 /// The case in the engine, ready to be drawn.
-fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<Stage> {
+fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<Take> {
     let recording = motions::in_engine(case, &motions::start(case)?, motions::film_sampling(case))?;
-    film::stage(case, Shown::of_engine(&recording)?, supersample, progress)
+    film::stage(case, Shown::of_engine(case, &recording)?, supersample, progress)
 }
 
 fn picture(case: &Case, supersample: u32, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {
@@ -84,6 +94,26 @@ fn short_loop(
     let first = (LOOP_AT * stage.frame_count() as f64) as u64;
     let frames = (first..stage.frame_count().min(first + LOOP_FRAMES))
         .map(|index| Ok(scaled(&renderer.draw(&stage.frame(index))?.0, LOOP)))
+        .collect::<anyhow::Result<Vec<_>>>()?;
+    gif(&frames, (1, LOOP_RATE as u16)).context("the loop could not be encoded")
+}
+
+/// A disk alone for one period of its motion.
+fn one_period(
+    case: &Case,
+    supersample: u32,
+    renderer: &mut dyn Renderer,
+    progress: &Progress,
+) -> anyhow::Result<Vec<u8>> {
+    let mut case = case.clone();
+    case.direction.panels = Some(Vec::new());
+    let Take::Disk(stage) = stage(&case, supersample, progress)? else {
+        anyhow::bail!("{} is no disk", case.title);
+    };
+    let start = PICTURE_AT * stage.end();
+    let time = |n: u32| start + stage.period() * f64::from(n) / f64::from(DISK_LOOP_FRAMES);
+    let frames = (0..DISK_LOOP_FRAMES)
+        .map(|n| Ok(scaled(&renderer.draw(&stage.frame_at(time(n)))?.0, DISK_LOOP)))
         .collect::<anyhow::Result<Vec<_>>>()?;
     gif(&frames, (1, LOOP_RATE as u16)).context("the loop could not be encoded")
 }

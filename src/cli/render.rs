@@ -117,8 +117,8 @@ impl RenderArgs {
         let case = self.input.case()?;
         let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));
         let shown = match self.solver {
-            Solver::Exact => Shown::of(&motions::exactly(&case, &start, sampling)?)?,
-            Solver::Rapier => Shown::of_engine(&motions::in_engine(&case, &start, sampling)?)?,
+            Solver::Exact => Shown::of(&case, &motions::exactly(&case, &start, sampling)?)?,
+            Solver::Rapier => Shown::of_engine(&case, &motions::in_engine(&case, &start, sampling)?)?,
         };
         Ok((case, shown))
     }
@@ -143,6 +143,7 @@ impl RenderArgs {
         film.theme = self.input.film.theme.unwrap_or(film.theme);
         film.background = self.input.film.background.unwrap_or(film.background);
         let case = case.refilmed(film, &path.display().to_string())?;
-        Ok((case, Shown::of(&trajectory)?))
+        let shown = Shown::of(&case, &trajectory)?;
+        Ok((case, shown))
     }
 }

@@ -1,7 +1,8 @@
-//! `run`: the main job. The rig in Rapier, the exact solution beside it, their agreement, and a film of the engine's motion.
+//! `run`: the main job. The rig or a bladed disk in Rapier, the exact solution beside it, their agreement, and a film of the engine's motion.
 
 use super::case_args::SceneArgs;
 use super::common::{Common, Document, print};
+use super::disk::filmed;
 use super::film::{self, DrawArgs, Made, Shown};
 use super::progress::Progress;
 use super::trajectory_table::{Provenance, to_table};
@@ -16,7 +17,7 @@ use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// Simulate the rig in Rapier, check it against the exact solution, and film it.
+/// Simulate the rig or a bladed disk in Rapier, check it against the exact solution, and film it.
 ///
 /// Writes frames, film.mp4, both trajectories and run.json. A second run resumes: finished frames are not drawn again.
 #[derive(Debug, Args)]
@@ -68,8 +69,8 @@ impl Checked {
     }
 
     /// The engine's motion, the exact one beside it.
-    pub fn shown(&self) -> anyhow::Result<Shown> {
-        Ok(Shown::of_engine(&self.recording)?.beside(&self.exact))
+    pub fn shown(&self, case: &Case) -> anyhow::Result<Shown> {
+        Shown::of_engine(case, &self.recording)?.beside(case, &self.exact)
     }
 
     /// `engine.csv` and `exact.csv`, their names after `prefix`.
@@ -79,7 +80,10 @@ impl Checked {
             [("engine.csv", &self.recording.trajectory, solver.as_str()), ("exact.csv", &self.exact, "exact")]
         {
             let provenance = Provenance { case, solver, parameters: Self::parameters(case) };
-            let table = to_table(trajectory, &provenance, &case.scales)?;
+            let table = match &case.disk {
+                Some(disk) => filmed::table(disk, trajectory, provenance.metadata(trajectory, &case.scales)?),
+                None => to_table(trajectory, &provenance, &case.scales)?,
+            };
             output.write(&format!("{prefix}{name}"), "", |writer| table.write_to(TableFormat::Csv, writer))?;
         }
         Ok(())
@@ -122,7 +126,7 @@ pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
     let checked = Checked::new(&case)?;
     progress.say(&checked.verdict_line());
     checked.write_trajectories(&case, &output, "")?;
-    let stage = film::stage(&case, checked.shown()?, args.draw.supersample, &progress)?;
+    let stage = film::stage(&case, checked.shown(&case)?, args.draw.supersample, &progress)?;
     let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
     let document = Document::new("run", parameters)
         .with("engine", checked.engine_json())

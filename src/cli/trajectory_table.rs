@@ -32,18 +32,25 @@ pub struct Provenance<'a> {
     pub parameters: Value,
 }
 
+impl Provenance<'_> {
+    /// What stands above a table.
+    pub fn metadata(&self, trajectory: &Trajectory, scales: &Scales) -> anyhow::Result<Vec<(String, String)>> {
+        let Self { case, solver, parameters } = self;
+        let metadata = [
+            ("stickslip", env!("CARGO_PKG_VERSION").to_owned()),
+            ("solver", (*solver).to_owned()),
+            ("parameters", parameters.to_string()),
+            ("case", serde_json::to_string(case)?),
+            ("scales", serde_json::to_string(scales)?),
+            ("outcome", serde_json::to_string(&trajectory.outcome)?),
+            ("switches", trajectory.switches().to_string()),
+        ];
+        Ok(metadata.map(|(key, value)| (key.to_owned(), value)).to_vec())
+    }
+}
+
 /// The samples as rows, in the units of `scales`.
 pub fn to_table(trajectory: &Trajectory, provenance: &Provenance<'_>, scales: &Scales) -> anyhow::Result<Table> {
-    let Provenance { case, solver, parameters } = provenance;
-    let metadata = [
-        ("stickslip", env!("CARGO_PKG_VERSION").to_owned()),
-        ("solver", (*solver).to_owned()),
-        ("parameters", parameters.to_string()),
-        ("case", serde_json::to_string(case)?),
-        ("scales", serde_json::to_string(scales)?),
-        ("outcome", serde_json::to_string(&trajectory.outcome)?),
-        ("switches", trajectory.switches().to_string()),
-    ];
     let si = *scales != Scales::UNITY;
     let mut columns: Vec<Column> = QUANTITIES
         .iter()
@@ -55,7 +62,7 @@ pub fn to_table(trajectory: &Trajectory, provenance: &Provenance<'_>, scales: &S
         .collect();
     let contacts = trajectory.samples.iter().map(|y| y.contacts[0].word().to_owned()).collect();
     columns.push(Column { name: "contact".to_owned(), unit: String::new(), values: ColumnData::Text(contacts) });
-    Ok(Table { metadata: metadata.map(|(key, value)| (key.to_owned(), value)).to_vec(), columns })
+    Ok(Table { metadata: provenance.metadata(trajectory, scales)?, columns })
 }
 
 /// The case and trajectory a table holds, non-dimensional; events are not stored.

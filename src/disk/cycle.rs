@@ -1,12 +1,15 @@
-//! Limit cycles of disks that need not be tuned: followed until they have settled, then closed by shooting.
+//! Limit cycles of disks that need not be tuned, closed by shooting: on settled motions, and from the travelling waves of the tuned disk by growing
+//! the mistuning step by step, which finds unstable cycles as well.
 //!
 //! Contacts that never slip on the cycle keep whatever force they were left with: `f_j - (k_j/R_j) b_j^T x` is constant, so cycles come in families and
 //! each such contact adds a multiplier 1. Those, and the one along the motion, say nothing about stability and are left out.
 
 use super::error::DiskError;
+use super::one_sector::TravellingWave;
 use super::ring::blade_amplitudes;
 use crate::dynamics::{EventKind, Sampling, State};
 use crate::exact::{ExactError, SparseFlow};
+use crate::model::{BladedDisk, Mistuning, NodalDiameter};
 use crate::orbit::{FlowOrbit, SpatialClosure, shoot_flow};
 use nalgebra::DVector;
 use std::f64::consts::TAU;
@@ -14,6 +17,8 @@ use std::f64::consts::TAU;
 /// Time over which the period of a settled motion is measured, and between two samples of it.
 const MEASURED: f64 = 40.0 * TAU;
 const SAMPLE: f64 = TAU / 64.0;
+/// Harmonics of the wave from which Newton's method starts.
+const FOLLOWED_HARMONICS: usize = 64;
 
 /// A limit cycle of a disk.
 #[derive(Debug, Clone)]
@@ -32,17 +37,28 @@ impl DiskCycle {
     pub fn stable(&self) -> bool {
         self.leading_multiplier < 1.0
     }
+
+    /// [`participation`] of the amplitudes: how far the motion is spread over the blades.
+    #[must_use]
+    pub fn participation(&self) -> f64 {
+        participation(&self.amplitudes)
+    }
 }
 
-/// The cycle on which the motion from `start` has settled after the time `settle`.
+/// `(sum a_j^2)^2 / (N sum a_j^4)`: 1 where all blades move alike, 1/N where one moves alone.
+#[must_use]
+pub fn participation(amplitudes: &[f64]) -> f64 {
+    let power = |k: i32| amplitudes.iter().map(|a| a.powi(k)).sum::<f64>();
+    let spread = power(4) * amplitudes.len() as f64;
+    if spread > 0.0 { power(2).powi(2) / spread } else { 1.0 }
+}
+
+/// The cycle near a state and a period.
 ///
 /// # Errors
-/// [`DiskError::NoOscillation`] if the motion comes to rest, [`DiskError::Orbit`] if it is no cycle that Newton's method finds (it may be
-/// quasi-periodic, or still settling), [`DiskError::Flow`].
-pub fn settled_cycle(flow: &SparseFlow, blades: usize, start: &State, settle: f64) -> Result<DiskCycle, DiskError> {
-    let settled = flow.advance(start, settle)?.state;
-    let period = mean_period(flow, blades, &settled)?;
-    let guess = DVector::from_iterator(settled.components().count(), settled.components());
+/// [`DiskError::Orbit`] if Newton's method finds none, [`DiskError::Flow`].
+pub fn cycle_near(flow: &SparseFlow, blades: usize, guess: &State, period: f64) -> Result<DiskCycle, DiskError> {
+    let guess = DVector::from_iterator(guess.components().count(), guess.components());
     let forces = 2 * flow.chain().oscillators();
     let admit = |y: &mut DVector<f64>| y.iter_mut().skip(forces).for_each(|f| *f = f.clamp(-1.0, 1.0));
     let orbit = shoot_flow(flow, &guess, period, &SpatialClosure::full_period(guess.len()), admit)?;
@@ -56,6 +72,44 @@ pub fn settled_cycle(flow: &SparseFlow, blades: usize, start: &State, settle: f6
         leading_multiplier: orbit.leading_multiplier(1 + stuck_contacts),
         orbit,
     })
+}
+
+/// The cycle on which the motion from `start` has settled after the time `settle`.
+///
+/// # Errors
+/// [`DiskError::NoOscillation`] if the motion comes to rest, [`DiskError::Orbit`] if it is no cycle that Newton's method finds (it may be
+/// quasi-periodic, or still settling), [`DiskError::Flow`].
+pub fn settled_cycle(flow: &SparseFlow, blades: usize, start: &State, settle: f64) -> Result<DiskCycle, DiskError> {
+    let settled = flow.advance(start, settle)?.state;
+    let period = mean_period(flow, blades, &settled)?;
+    cycle_near(flow, blades, &settled, period)
+}
+
+/// The cycle that the travelling wave of the tuned disk becomes as the mistuning grows to its own size in `steps` equal steps.
+///
+/// # Errors
+/// As [`TravellingWave::of`] for the wave, and [`DiskError::Lost`] where the cycle cannot be followed: with stronger mistuning it may end in a fold.
+pub fn mistuned_wave(disk: &BladedDisk, wave: NodalDiameter, steps: usize) -> Result<DiskCycle, DiskError> {
+    let estimate = TravellingWave::of(disk, wave, FOLLOWED_HARMONICS)?;
+    let (mut state, mut period) = (estimate.state(), estimate.period());
+    let deviations = disk.deviations()?;
+    let steps = steps.max(1);
+    for step in 0..=steps {
+        let part = step as f64 / steps as f64;
+        let deviations = deviations.iter().map(|deviation| part * deviation).collect();
+        let here = BladedDisk { mistuning: Some(Mistuning::Pattern { deviations }), ..disk.clone() };
+        let flow = SparseFlow::new(&here.chain()?);
+        let cycle = cycle_near(&flow, disk.sectors, &state, period).map_err(|error| match error {
+            DiskError::Orbit(source) => DiskError::Lost { wave: wave.signed(), part, source },
+            other => other,
+        })?;
+        if step == steps {
+            return Ok(cycle);
+        }
+        state = State::from_components(cycle.orbit.state.as_slice(), flow.chain()).map_err(ExactError::from)?;
+        period = cycle.orbit.period;
+    }
+    Err(DiskError::NoOscillation { time: 0.0 })
 }
 
 /// Mean time between upward zeros of the velocity of the blade that moves most.

@@ -35,6 +35,10 @@ pub enum DiskError {
     NoConvergence { wave: i64, residual: f64 },
     #[error("the motion has come to rest: no blade swings within {time} after it has settled")]
     NoOscillation { time: f64 },
+    #[error(
+        "the cycle of the wave of nodal diameter {wave} was lost at {part} times the mistuning: {source}. Take more steps; or it has ended in a fold"
+    )]
+    Lost { wave: i64, part: f64, source: crate::orbit::OrbitError },
     #[error("orbit of the ring: {0}")]
     Orbit(#[from] crate::orbit::OrbitError),
     #[error("motion of the disk: {0}")]

@@ -3,7 +3,7 @@
 //! - [`TravellingWave`]: the wave of a tuned ring from one sector (`one_sector`), by harmonic balance with exact friction integrals.
 //! - [`ring_wave`], [`wave_multipliers`]: the same wave as an orbit of the whole ring under the exact flow, and its Floquet multipliers grouped
 //!   by interblade phase angle (`ring`).
-//! - [`settled_cycle`]: limit cycles of mistuned disks (`cycle`).
+//! - [`settled_cycle`], [`mistuned_wave`]: limit cycles of mistuned disks (`cycle`).
 //! - [`wave_amplitudes`]: the spectrum by nodal diameter (`spectrum`).
 //! - [`MonteCarlo`]: flutter of randomly mistuned disks, resumable (`monte_carlo`).
 
@@ -17,9 +17,9 @@ mod ring;
 mod sector;
 mod spectrum;
 
-pub use cycle::{DiskCycle, settled_cycle};
+pub use cycle::{DiskCycle, cycle_near, mistuned_wave, participation, settled_cycle};
 pub use error::DiskError;
 pub use monte_carlo::{Fate, FateCounts, MonteCarlo, SampleRow, Summary};
 pub use one_sector::{DESCRIBING_FUNCTION, MANY_HARMONICS, TravellingWave};
 pub use ring::{RingWave, WaveMultiplier, blade_amplitudes, largest_by_wave, ring_wave, wave_multipliers};
-pub use spectrum::{strongest, wave_amplitudes};
+pub use spectrum::{slow_wave_amplitudes, strongest, wave_amplitudes, wave_amplitudes_at, wave_frequencies};

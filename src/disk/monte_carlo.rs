@@ -1,9 +1,18 @@
 //! Flutter of randomly mistuned disks.
 //!
 //! Sample i has the mistuning of seed `first_seed + i` and starts from rest with displacements drawn uniformly from the same seed. It is
-//! followed by the exact flow; what is recorded comes from the last tenth of the motion, the tenth before it telling whether it has
-//! settled. Every sample depends on its seed alone, so the result is the same on any number of threads and after any interruption.
+//! followed by the exact flow over `periods`; what is recorded comes from the last tenth of the motion.
+//!
+//! # When a motion has settled
+//!
+//! A bounded motion has settled when the largest amplitude of any blade and the mean over the blades of their largest amplitudes both differ by
+//! less than 1 % between the last two tenths. While it has not, it is followed to four times its length, up to `longest`: the windows
+//! grow with it, so that a slow beat, which is no settling, fits in. What has not settled by then counts apart and enters no quantile.
+//! A linearly stable motion whose contacts all stick in the last tenth only decays: it needs no settling.
+//!
+//! Every sample depends on its seed alone, so the result is the same on any number of threads and after any interruption.
 
+use super::cycle::participation;
 use super::error::DiskError;
 use crate::dynamics::{Outcome, Sampling, State};
 use crate::exact::SparseFlow;
@@ -20,6 +29,10 @@ const BLOCK: usize = 10;
 const PER_PERIOD: f64 = 64.0;
 /// What is looked at begins after this part of the motion.
 const TRANSIENT: f64 = 0.8;
+/// Largest relative change between the last two tenths of a settled motion.
+const SETTLED: f64 = 0.01;
+/// A motion that has not settled is made this many times as long.
+const LENGTHENING: f64 = 4.0;
 /// Keeps the seeds of displacements apart from those of stiffnesses.
 const START_STREAM: u64 = 0x5354_4152_5400_0000;
 
@@ -30,8 +43,10 @@ pub struct MonteCarlo {
     pub disk: BladedDisk,
     pub samples: usize,
     pub first_seed: u64,
-    /// Length of each motion in periods 2 pi of a blade.
+    /// Length of each motion at first, in periods 2 pi of a blade.
     pub periods: f64,
+    /// Length up to which motions that have not settled are followed, at least `periods`.
+    pub longest: f64,
     /// Displacements at the start are uniform from minus this to this.
     pub start: f64,
 }
@@ -54,10 +69,12 @@ pub struct SampleRow {
     /// Least damping of all modes with stuck contacts; negative: linear flutter.
     pub least_damping: f64,
     pub fate: Fate,
+    /// Periods followed.
+    pub periods: f64,
+    /// Whether the amplitudes are those the motion keeps; true of stable and diverged ones, which have none.
+    pub settled: bool,
     /// Largest amplitude of any blade; of a diverged motion the amplitude bound.
     pub amplitude: f64,
-    /// The same in the tenth before: how far the motion has settled.
-    pub amplitude_before: f64,
     /// Mean over the blades of their largest amplitudes.
     pub mean_amplitude: f64,
     /// `(sum a_j^2)^2 / (N sum a_j^4)`: 1 where all blades move alike, 1/N where one moves alone.
@@ -68,7 +85,10 @@ pub struct SampleRow {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct FateCounts {
     pub stable: usize,
+    /// Settled ones.
     pub flutter: usize,
+    /// Bounded by friction, but not settled within the longest time.
+    pub unsettled: usize,
     pub diverged: usize,
 }
 
@@ -79,10 +99,10 @@ pub struct Summary {
     /// Samples with negative least damping over all samples, and its standard error.
     pub probability_of_linear_flutter: f64,
     pub standard_error: f64,
-    /// 5, 25, 50, 75, 95 % quantiles of the amplitude of samples that flutter; empty if none does.
+    /// 5, 25, 50, 75, 95 % quantiles of the amplitude of settled samples that flutter; empty if none does.
     pub amplitude_quantiles: Vec<f64>,
-    /// Fluttering samples whose amplitude still changed by more than 1 % between the last two tenths.
-    pub unsettled: usize,
+    /// Samples by the number of periods after which they had settled, diverged or were given up: periods and count.
+    pub lengths: Vec<(f64, usize)>,
 }
 
 impl MonteCarlo {
@@ -113,6 +133,10 @@ impl MonteCarlo {
         Range::Positive.check("samples", self.samples as f64)?;
         Range::Positive.check("periods", self.periods)?;
         Range::Positive.check("start", self.start)?;
+        if !(self.longest >= self.periods && self.longest.is_finite()) {
+            let allowed = "finite and at least the number of periods";
+            return Err(ParameterError::OutOfRange { field: "longest".to_owned(), found: self.longest, allowed });
+        }
         if !self.disk.mistuning.as_ref().is_some_and(Mistuning::is_random) {
             let allowed = "`normal` or `uniform`: give [disk.mistuning] one of these kinds";
             return Err(ParameterError::OutOfRange { field: "mistuning".to_owned(), found: 0.0, allowed });
@@ -153,18 +177,39 @@ impl MonteCarlo {
         let displacements = Mistuning::Uniform { half_width: self.start, seed: seed ^ START_STREAM };
         let mut start = State::rest(&chain);
         start.positions[..disk.sectors].copy_from_slice(&displacements.deviations(disk.sectors)?);
-        let (flow, end) = (SparseFlow::new(&chain), self.periods * TAU);
-        let mut tenths = Tenths { blades: vec![[0.0; 2]; disk.sectors], slips: false };
-        let before = flow.advance(&start, TRANSIENT * end)?;
-        if before.outcome != Outcome::Completed {
-            return Ok(tenths.row(seed, least_damping, before.outcome));
-        }
-        let length = (1.0 - TRANSIENT) * end;
-        let sampling = Sampling { interval: TAU / PER_PERIOD, t_end: length };
-        let arrival =
-            flow.observe(&before.state, sampling, |t, state, contacts| tenths.see(t > 0.5 * length, state, contacts))?;
-        Ok(tenths.row(seed, least_damping, arrival.outcome))
+        self.follow(&SparseFlow::new(&chain), start, Fixed { seed, least_damping, blades: disk.sectors })
     }
+
+    /// The motion in stages, each to `LENGTHENING` times the length of the one before.
+    fn follow(&self, flow: &SparseFlow, start: State, fixed: Fixed) -> Result<SampleRow, DiskError> {
+        let (mut state, mut known, mut periods) = (start, 0.0, self.periods);
+        loop {
+            let mut tenths = Tenths { blades: vec![[0.0; 2]; fixed.blades], slips: false };
+            let end = periods * TAU;
+            let before = flow.advance(&state, (TRANSIENT * end - known).max(0.0))?;
+            if before.outcome != Outcome::Completed {
+                return Ok(tenths.row(&fixed, periods, before.outcome));
+            }
+            // The windows of a stage that is hardly longer than the last may have begun before it: they begin with it then.
+            let length = end - known.max(TRANSIENT * end);
+            let sampling = Sampling { interval: TAU / PER_PERIOD, t_end: length };
+            let see = |t: f64, state: &State, contacts: &[ContactState]| tenths.see(t > 0.5 * length, state, contacts);
+            let arrival = flow.observe(&before.state, sampling, see)?;
+            let row = tenths.row(&fixed, periods, arrival.outcome);
+            if row.settled || periods >= self.longest {
+                return Ok(row);
+            }
+            (state, known) = (arrival.state, end);
+            periods = (LENGTHENING * periods).min(self.longest);
+        }
+    }
+}
+
+/// What is known of a sample before it moves.
+struct Fixed {
+    seed: u64,
+    least_damping: f64,
+    blades: usize,
 }
 
 /// Largest |x| of each blade in the last but one and the last tenth of a motion.
@@ -182,24 +227,36 @@ impl Tenths {
         self.slips |= last && contacts.iter().any(|contact| !contact.is_stick());
     }
 
-    fn row(&self, seed: u64, least_damping: f64, outcome: Outcome) -> SampleRow {
-        let largest = |tenth: usize| self.blades.iter().map(|b| b[tenth]).fold(0.0, f64::max);
-        let count = self.blades.len() as f64;
-        let power = |k: i32| self.blades.iter().map(|b| b[1].powi(k)).sum::<f64>();
+    fn largest(&self, tenth: usize) -> f64 {
+        self.blades.iter().map(|b| b[tenth]).fold(0.0, f64::max)
+    }
+
+    fn mean(&self, tenth: usize) -> f64 {
+        self.blades.iter().map(|b| b[tenth]).sum::<f64>() / self.blades.len() as f64
+    }
+
+    fn has_settled(&self) -> bool {
+        let near = |[before, now]: [f64; 2]| (now - before).abs() <= SETTLED * now;
+        near([0, 1].map(|tenth| self.largest(tenth))) && near([0, 1].map(|tenth| self.mean(tenth)))
+    }
+
+    fn row(&self, fixed: &Fixed, periods: f64, outcome: Outcome) -> SampleRow {
+        let Fixed { seed, least_damping, .. } = *fixed;
         let (fate, amplitude) = match outcome {
             Outcome::Diverged { bound, .. } => (Fate::Diverged, bound),
-            Outcome::Completed if least_damping >= 0.0 && !self.slips => (Fate::Stable, largest(1)),
-            Outcome::Completed => (Fate::Flutter, largest(1)),
+            Outcome::Completed if least_damping >= 0.0 && !self.slips => (Fate::Stable, self.largest(1)),
+            Outcome::Completed => (Fate::Flutter, self.largest(1)),
         };
-        let spread = power(4);
+        let amplitudes: Vec<f64> = self.blades.iter().map(|blade| blade[1]).collect();
         SampleRow {
             seed,
             least_damping,
             fate,
+            periods,
+            settled: fate != Fate::Flutter || self.has_settled(),
             amplitude,
-            amplitude_before: largest(0),
-            mean_amplitude: power(1) / count,
-            participation: if spread > 0.0 { power(2).powi(2) / (count * spread) } else { 1.0 },
+            mean_amplitude: self.mean(1),
+            participation: participation(&amplitudes),
         }
     }
 }
@@ -208,24 +265,32 @@ impl Summary {
     /// Of at least one sample; all zero for none.
     #[must_use]
     pub fn of(rows: &[SampleRow]) -> Self {
-        let count = |fate| rows.iter().filter(|row| row.fate == fate).count();
+        let count = |fate, settled| rows.iter().filter(|row| row.fate == fate && row.settled == settled).count();
         let all = rows.len().max(1) as f64;
         let p = rows.iter().filter(|row| row.least_damping < 0.0).count() as f64 / all;
-        let fluttering = || rows.iter().filter(|row| row.fate == Fate::Flutter);
-        let mut amplitudes: Vec<f64> = fluttering().map(|row| row.amplitude).collect();
+        let fluttering = rows.iter().filter(|row| row.fate == Fate::Flutter && row.settled);
+        let mut amplitudes: Vec<f64> = fluttering.map(|row| row.amplitude).collect();
         amplitudes.sort_by(f64::total_cmp);
         let quantile = |q: f64| amplitudes[(q * (amplitudes.len() - 1) as f64).round() as usize];
         let quantiles = [0.05, 0.25, 0.5, 0.75, 0.95];
         Self {
             fates: FateCounts {
-                stable: count(Fate::Stable),
-                flutter: count(Fate::Flutter),
-                diverged: count(Fate::Diverged),
+                stable: count(Fate::Stable, true),
+                flutter: count(Fate::Flutter, true),
+                unsettled: count(Fate::Flutter, false),
+                diverged: count(Fate::Diverged, true),
             },
             probability_of_linear_flutter: p,
             standard_error: (p * (1.0 - p) / all).sqrt(),
             amplitude_quantiles: if amplitudes.is_empty() { vec![] } else { quantiles.map(quantile).to_vec() },
-            unsettled: fluttering().filter(|r| (r.amplitude - r.amplitude_before).abs() > 0.01 * r.amplitude).count(),
+            lengths: lengths(rows),
         }
     }
+}
+
+/// Rows by the number of periods followed, in rising order.
+fn lengths(rows: &[SampleRow]) -> Vec<(f64, usize)> {
+    let mut periods: Vec<f64> = rows.iter().map(|row| row.periods).collect();
+    periods.sort_by(f64::total_cmp);
+    periods.chunk_by(|a, b| a == b).map(|equal| (equal[0], equal.len())).collect()
 }

@@ -1,29 +1,36 @@
 //! Amplitudes of the waves of a ring at an instant, and over time.
 //!
-//! With `z_j = x_j - i v_j/w`, which is `q exp(i (w t - j sigma))` in a harmonic wave, the amplitude of the wave n is
-//!
-//! ```text
-//! a_n = |1/N sum_j z_j exp(+i j sigma_n)|
-//! ```
-//!
-//! exact for harmonic motion at w, otherwise right up to the difference between the wave's frequency and w, relative.
+//! Formula and its error: [`Spectrum`].
 
+use super::error::DiskError;
 use crate::dynamics::State;
-use crate::model::NodalDiameter;
+use crate::model::{BladedDisk, NodalDiameter, Spectrum, Topology};
 use nalgebra::Complex;
 
 /// Amplitudes by wave number 0 to N - 1 of the first `blades` oscillators, seen at angular frequency `w`.
 #[must_use]
 pub fn wave_amplitudes(state: &State, blades: usize, w: f64) -> Vec<f64> {
-    (0..blades)
-        .map(|n| {
-            let wave = NodalDiameter::new(n as i64, blades);
-            let blade = |j: usize| Complex::new(state.positions[j], -state.velocities[j] / w);
-            let sum: Complex<f64> =
-                (0..blades).map(|j| blade(j) * Complex::from_polar(1.0, wave.multiple(j as i64))).sum();
-            sum.norm() / blades as f64
-        })
-        .collect()
+    wave_amplitudes_at(state, &vec![w; blades])
+}
+
+/// The same with an angular frequency for each wave, by wave number 0 to N - 1; N is the number of frequencies.
+#[must_use]
+pub fn wave_amplitudes_at(state: &State, frequencies: &[f64]) -> Vec<f64> {
+    Spectrum::new(Topology::Ring, frequencies.to_vec()).amplitudes(&state.positions, &state.velocities)
+}
+
+/// Amplitudes by wave number of complex amplitudes `z_j`, one per blade, as averaging gives them.
+#[must_use]
+pub fn slow_wave_amplitudes(z: &[Complex<f64>]) -> Vec<f64> {
+    Spectrum::new(Topology::Ring, vec![1.0; z.len()]).amplitudes_of(|j, _| z[j])
+}
+
+/// [`BladedDisk::wave_frequencies`].
+///
+/// # Errors
+/// [`DiskError::Modes`] as there.
+pub fn wave_frequencies(disk: &BladedDisk) -> Result<Vec<f64>, DiskError> {
+    Ok(disk.wave_frequencies()?)
 }
 
 /// The wave with the largest amplitude.

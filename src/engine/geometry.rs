@@ -2,10 +2,7 @@
 
 use crate::model::{ParameterError, Range};
 use serde::{Deserialize, Serialize};
-
-/// Acceleration of gravity along -y, in the chain's units. Its amount does not matter for the motion along x: it is there
-/// so that the joints have a load to carry, as those of a real rig do.
-pub(super) const GRAVITY: f64 = 9.81;
+use std::fmt;
 
 /// Where the carriages stand and how large their collision shapes are. Collisions between bodies are off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -61,15 +58,34 @@ pub enum BodyRole {
     Rail,
     /// The carriage of an oscillator, numbered from 0.
     Carriage(usize),
+    /// The fixed middle of a bladed disk; of a chain the beam below the blades.
+    Hub,
+    /// A blade, numbered from 0.
+    Blade(usize),
+    /// The disk segment under a blade, numbered as the blade.
+    Segment(usize),
 }
 
-/// A body as the engine has it: pose, and the cuboid that is its collision shape.
+impl fmt::Display for BodyRole {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rail => write!(f, "rail"),
+            Self::Carriage(i) => write!(f, "carriage {i}"),
+            Self::Hub => write!(f, "hub"),
+            Self::Blade(j) => write!(f, "blade {j}"),
+            Self::Segment(j) => write!(f, "segment {j}"),
+        }
+    }
+}
+
+/// A body as the engine has it: pose, and the size of its collision shape, a cuboid; the hub of a ring is a cylinder about its local y axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BodyPose {
     pub role: BodyRole,
     pub translation: [f64; 3],
     /// Unit quaternion x, y, z, w.
     pub rotation: [f64; 4],
+    /// Along the local axes; of a cylinder its radius, half its height, its radius.
     pub half_extents: [f64; 3],
 }
 

@@ -1,4 +1,5 @@
-//! The rig as 3D bodies in the physics engine Rapier: N carriages on prismatic joints, moved by force laws.
+//! The rig as 3D bodies in the physics engine Rapier: N carriages on prismatic joints, moved by force laws; and a bladed disk, N blades
+//! round a hub ([`DiskFlow`]).
 //!
 //! ```text
 //! M x'' = -K x - (D + S) x' - sum_j R_j f_j b_j
@@ -19,6 +20,7 @@
 //! Assumptions: small joint drift (recorded); no collisions; gravity along -y is carried by the joints; all force laws are evaluated in
 //! f64, and only what Rapier stores and integrates is rounded in the f32 build.
 
+mod disk;
 mod double;
 mod error;
 mod events;
@@ -28,6 +30,8 @@ mod geometry;
 mod hash;
 mod info;
 mod instant;
+mod layout;
+mod linear;
 pub mod mechanism;
 mod plant;
 mod prescribed;
@@ -36,15 +40,19 @@ mod settings;
 #[expect(clippy::duplicate_mod, reason = "one source for both precisions; see world.rs")]
 mod single;
 mod step_map;
+mod step_path;
 mod work;
 
+pub use disk::{BladeMotion, DiskArrival, DiskFlow, DiskGeometry};
 pub use error::EngineError;
 pub use flow::{DEFAULT_AMPLITUDE_BOUND, EngineFlow};
 pub use force_law::{Dampers, ForceLaw, JenkinsElements, Known, SelfExcitation, Springs, laws_of};
 pub use geometry::{BodyPose, BodyRole, JointDrift, RigGeometry};
 pub use hash::trajectory_hash;
 pub use info::EngineInfo;
+pub use linear::LinearForces;
 pub use prescribed::PrescribedFlow;
 pub use recorder::Recording;
 pub use settings::{EngineSettings, Joints, Precision, Scheme};
 pub use step_map::{DiscreteState, Stepped};
+pub use step_path::StepPath;

@@ -1,6 +1,7 @@
 //! What the flows need of a Rapier world, whatever its precision.
 
-use super::geometry::{BodyPose, JointDrift, RigGeometry};
+use super::geometry::{BodyPose, JointDrift};
+use super::layout::Layout;
 use super::settings::{EngineSettings, Precision};
 use super::{EngineError, double, single};
 
@@ -20,7 +21,7 @@ pub(super) struct Blueprint<'a> {
     pub positions: &'a [f64],
     /// The engine's velocities at the start, `w_0` of [`super::Scheme`].
     pub velocities: &'a [f64],
-    pub geometry: RigGeometry,
+    pub layout: &'a Layout,
     pub settings: EngineSettings,
     pub carriages: Carriages,
 }
@@ -31,7 +32,7 @@ pub(super) trait Plant {
 
     fn read_velocities(&self, velocities: &mut [f64]);
 
-    /// One step under constant forces along x. `Err` names the bodies that Rapier quarantined.
+    /// One step under constant forces along the local x axis of each carriage. `Err` names the bodies that Rapier quarantined.
     fn step_with_forces(&mut self, forces: &[f64]) -> Result<(), Vec<String>>;
 
     /// One step that carries kinematic carriages to new positions.
@@ -40,8 +41,8 @@ pub(super) trait Plant {
     /// Largest distance and rotation of a carriage off its rail now.
     fn drift(&self) -> JointDrift;
 
-    /// Rail first, then the carriages.
-    fn poses(&self) -> Vec<BodyPose>;
+    /// The base first, then the carriages, moved along their local x axes from where they are to `positions`.
+    fn poses_at(&self, positions: &[f64]) -> Vec<BodyPose>;
 }
 
 /// Builds the world in the precision of its settings.

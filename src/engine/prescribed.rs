@@ -56,7 +56,7 @@ impl PrescribedFlow {
             masses: self.chain.mass().as_slice(),
             positions: &now.state.positions,
             velocities: &vec![0.0; self.chain.oscillators()],
-            geometry: self.flow.geometry(),
+            layout: self.flow.layout(),
             settings: self.flow.settings(),
             carriages: Carriages::Kinematic,
         })?;

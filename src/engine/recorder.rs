@@ -1,7 +1,7 @@
 //! Turns the instants of a run into a [`Recording`]: samples, events, ledger, drift, and the engine's own poses.
 
 use super::events;
-use super::geometry::{BodyPose, BodyRole, JointDrift};
+use super::geometry::{BodyPose, JointDrift};
 use super::instant::Instant;
 use super::plant::Plant;
 use super::work::WorkMeter;
@@ -13,8 +13,8 @@ use std::iter::Peekable;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     pub trajectory: Trajectory,
-    /// Poses of all bodies at each sample, rail first. Between steps the pose at the end of the step, moved along the rail to the
-    /// sample's position.
+    /// Poses of all bodies at each sample, rail (hub) first, then in the order of oscillators. Between steps the pose at the end of the step,
+    /// moved along the joint to the sample's position.
     pub poses: Vec<Vec<BodyPose>>,
     /// Over all steps.
     pub drift: JointDrift,
@@ -100,7 +100,7 @@ impl<'a> Recorder<'a> {
 
     fn sample(&mut self, time: f64, at: &Instant, works: Works, plant: &dyn Plant) {
         if self.keep == Poses::Keep {
-            self.poses.push(poses_at(plant, &at.state.positions));
+            self.poses.push(plant.poses_at(&at.state.positions));
         }
         let ledger =
             EnergyLedger { stored: stored_energy(self.chain, &at.state), stored_at_start: self.stored_at_start, works };
@@ -110,17 +110,4 @@ impl<'a> Recorder<'a> {
 
 fn stored_energy(chain: &OscillatorChain, state: &State) -> f64 {
     chain.stored_energy(&state.positions, &state.velocities, &state.slider_forces)
-}
-
-/// The engine's poses, moved along the rail from where the carriages are now to `positions`.
-fn poses_at(plant: &dyn Plant, positions: &[f64]) -> Vec<BodyPose> {
-    let mut now = vec![0.0; positions.len()];
-    plant.read_positions(&mut now);
-    let mut poses = plant.poses();
-    for pose in &mut poses {
-        if let BodyRole::Carriage(i) = pose.role {
-            pose.translation[0] += positions[i] - now[i];
-        }
-    }
-    poses
 }

@@ -8,37 +8,40 @@
 //! The residual of the ledger is of second order in the step for the second-order scheme: the quadrature, the recorded velocities and the
 //! stored energy all are. It measures the solver together with this quadrature.
 
-use super::force_law::subtract_product;
 use super::instant::Instant;
-use crate::model::{OscillatorChain, Works};
-use nalgebra::DMatrix;
+use crate::model::{OscillatorChain, SparseMatrix, Works};
 
 /// Computes works; keeps the matrices and room for the forces.
 #[derive(Debug, Clone)]
 pub(super) struct WorkMeter {
     chain: OscillatorChain,
-    skew_stiffness: DMatrix<f64>,
+    damping: SparseMatrix,
+    self_excitation: SparseMatrix,
+    skew_stiffness: SparseMatrix,
     forces: Vec<f64>,
 }
 
 impl WorkMeter {
     pub fn new(chain: &OscillatorChain) -> Self {
         let skew_stiffness = 0.5 * (chain.stiffness() - chain.stiffness().transpose());
-        Self { chain: chain.clone(), skew_stiffness, forces: vec![0.0; chain.oscillators()] }
+        let [damping, self_excitation, skew_stiffness] =
+            [chain.damping(), chain.self_excitation(), &skew_stiffness].map(SparseMatrix::of);
+        let forces = vec![0.0; chain.oscillators()];
+        Self { chain: chain.clone(), damping, self_excitation, skew_stiffness, forces }
     }
 
     pub fn between(&mut self, from: &Instant, to: &Instant) -> Works {
         let (a, b) = (&from.state, &to.state);
         let dx = |i: usize| b.positions[i] - a.positions[i];
-        let mut trapezoid = |matrix: &DMatrix<f64>, first: &[f64], second: &[f64]| {
+        let mut trapezoid = |matrix: &SparseMatrix, first: &[f64], second: &[f64]| {
             self.forces.fill(0.0);
-            subtract_product(matrix, first, &mut self.forces);
-            subtract_product(matrix, second, &mut self.forces);
+            matrix.subtract_product(first, &mut self.forces);
+            matrix.subtract_product(second, &mut self.forces);
             0.5 * self.forces.iter().enumerate().map(|(i, force)| force * dx(i)).sum::<f64>()
         };
         Works {
-            damping: trapezoid(self.chain.damping(), &a.velocities, &b.velocities),
-            self_excitation: trapezoid(self.chain.self_excitation(), &a.velocities, &b.velocities),
+            damping: trapezoid(&self.damping, &a.velocities, &b.velocities),
+            self_excitation: trapezoid(&self.self_excitation, &a.velocities, &b.velocities),
             circulatory: trapezoid(&self.skew_stiffness, &a.positions, &b.positions),
             friction: self.friction(from, to),
             drive: 0.5 * (from.drive_force + to.drive_force) * dx(0),

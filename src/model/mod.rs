@@ -15,12 +15,13 @@ mod prescribed;
 mod quantity;
 mod rig;
 mod scaling;
+mod sparse;
 
 pub use chain::OscillatorChain;
 pub use chain_builder::ChainBuilder;
 pub use disk::{
     Aerodynamics, BladedDisk, ContactPlace, DiskSegments, FrictionContacts, Harmonic, InfluenceCoefficient,
-    InfluenceCoefficients, Mistuning, ModeShape, NodalDiameter, Topology, TravelDirection, TunedMode,
+    InfluenceCoefficients, Mistuning, ModeShape, NodalDiameter, Spectrum, Topology, TravelDirection, TunedMode,
 };
 pub use energy::{EnergyLedger, Works};
 pub use harmonic::{HarmonicEstimate, sticking_angle};
@@ -32,3 +33,4 @@ pub use prescribed::PrescribedMotion;
 pub use quantity::{ParameterError, Range};
 pub use rig::{RigParameters, TwoMassRig};
 pub use scaling::{DimensionalRig, Scales};
+pub use sparse::SparseMatrix;

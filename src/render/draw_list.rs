@@ -162,6 +162,12 @@ pub enum OverlayItem {
         fill: Colour,
         stroke: Option<Stroke>,
     },
+    /// Opaque cells of even colour that fill `area`, row by row from the top left one, `columns` in a row.
+    Raster {
+        area: Rectangle,
+        columns: usize,
+        cells: Arc<[Colour]>,
+    },
     /// One line of text; `position` is on the baseline. `size` is the font size in pixels.
     Text {
         position: Vec2,

@@ -142,7 +142,8 @@ impl Scene {
 
     fn checked_direction(&self) -> Result<Direction, Refusal> {
         let fault = |(field, allowed)| (format!("direction.{field}"), Fault::Direction { field, allowed });
-        self.direction.check().map_err(fault)?;
+        let all = if self.disk.is_some() { &Panel::DISK } else { &Panel::ALL };
+        self.direction.check(all).map_err(fault)?;
         Ok(self.direction.clone())
     }
 
@@ -190,6 +191,7 @@ impl Case {
     pub fn panels(&self) -> &[Panel] {
         match (&self.direction.panels, self.prescribed) {
             (Some(panels), _) => panels,
+            (None, None) if self.disk.is_some() => &Panel::DISK,
             (None, None) => &Panel::ALL,
             (None, Some(_)) => &[Panel::Hysteresis, Panel::Series, Panel::Energy],
         }

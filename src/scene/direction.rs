@@ -7,38 +7,47 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Panel {
-    /// Displacements of both masses over time.
+    /// Displacements over time: of both masses, or of three blades.
     Series,
-    /// Slider force over the displacement of mass 1.
+    /// Slider force over the displacement of mass 1, or over the elongation of one contact of a disk.
     Hysteresis,
     /// Velocity over displacement of mass 1, with the points of a Poincare section.
     Phase,
-    /// Amplitude of mass 2 over that of mass 1.
+    /// Amplitude of mass 2 over that of mass 1; of a disk the amplitudes of its strongest waves over time.
     Amplitudes,
     /// Energy put in and taken out in the last period.
     Energy,
     /// Where the scene stands in the amplitude-damping diagram.
     Map,
+    /// Disks: amplitude of every wave by nodal diameter, backward ones at the left and forward ones at the right.
+    Spectrum,
+    /// Disks: deflection of every blade over time, as colour.
+    Carpet,
 }
 
 impl Panel {
-    /// All of them, in the order in which they stand where a scene does not say.
+    /// Those of the rig, in the order in which they stand where a scene does not say.
     pub const ALL: [Self; 6] = [Self::Series, Self::Hysteresis, Self::Phase, Self::Amplitudes, Self::Energy, Self::Map];
+
+    /// Those of a bladed disk.
+    pub const DISK: [Self; 6] =
+        [Self::Carpet, Self::Spectrum, Self::Amplitudes, Self::Series, Self::Hysteresis, Self::Energy];
 }
 
 /// How the motion is shown.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Direction {
-    /// Panels, at most six: the first three beside the scene, the others below it. Without it all of them, or for a prescribed motion those that say something about it.
+    /// Panels, at most six: the first three beside the scene, the others below it. Without it all of them, or for a prescribed motion those that say something about it. A disk has other panels than the rig.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub panels: Option<Vec<Panel>>,
+    /// A disk is seen from higher up where none is given.
     pub camera: CameraMove,
     /// Captions by time; the scene's own caption stands where there is none.
     pub captions: Vec<Caption>,
     /// Stretches of the film that show the motion slower or faster, in order of time and apart from each other.
     pub slow_motion: Vec<SlowMotion>,
-    /// Displacements are drawn this many times as large as fits between the parts of the rig.
+    /// Displacements are drawn this many times as large as fits between the parts of the rig or beside a disk.
     pub magnification: f64,
 }
 
@@ -251,10 +260,17 @@ impl Direction {
         Some((&caption.text, shown))
     }
 
-    pub(super) fn check(&self) -> Result<(), Fault> {
+    /// `all` are the panels there are.
+    pub(super) fn check(&self, all: &[Panel]) -> Result<(), Fault> {
         let require = |holds: bool, field, allowed| if holds { Ok(()) } else { Err((field, allowed)) };
-        let count = self.panels.as_ref().map_or(0, Vec::len);
-        require(count <= Panel::ALL.len(), "panels", "a list of at most 6 panels")?;
+        let chosen = self.panels.as_deref().unwrap_or_default();
+        require(chosen.len() <= all.len(), "panels", "a list of at most 6 panels")?;
+        let known = chosen.iter().all(|panel| all.contains(panel));
+        require(
+            known,
+            "panels",
+            "made of panels of the rig (series, hysteresis, phase, amplitudes, energy, map) or, for a disk, of carpet, spectrum, amplitudes, series, hysteresis, energy",
+        )?;
         let in_range = |view: &View| {
             view.azimuth.is_finite()
                 && (0.0..=85.0).contains(&view.elevation)
@@ -345,7 +361,7 @@ mod tests {
 
     #[test]
     fn senseless_directions_are_refused_with_their_field() {
-        let fault = |direction: Direction| direction.check().unwrap_err().0;
+        let fault = |direction: Direction| direction.check(&Panel::ALL).unwrap_err().0;
         let view = View { zoom: f64::NAN, ..View::default() };
         assert_eq!(fault(Direction { camera: CameraMove::Fixed { view }, ..Direction::default() }), "camera");
         assert_eq!(
@@ -358,6 +374,9 @@ mod tests {
         assert_eq!(fault(Direction { magnification: 0.0, ..Direction::default() }), "magnification");
         let captions = vec![Caption { from: 2.0, to: 1.0, text: String::new() }];
         assert_eq!(fault(Direction { captions, ..Direction::default() }), "captions");
-        assert!(slowed().check().is_ok());
+        assert!(slowed().check(&Panel::ALL).is_ok());
+        let carpet = Direction { panels: Some(vec![Panel::Carpet]), ..Direction::default() };
+        assert!(carpet.check(&Panel::DISK).is_ok());
+        assert_eq!(fault(carpet), "panels");
     }
 }

@@ -16,6 +16,15 @@ pub const BUILT_IN: [(&str, &str); 7] = [
     ("hysteresis", include_str!("../../scenes/hysteresis.toml")),
 ];
 
+/// Scenes about bladed disks that come with the program.
+pub const BUILT_IN_DISKS: [(&str, &str); 5] = [
+    ("disk_forward_wave", include_str!("../../scenes/disk_forward_wave.toml")),
+    ("disk_competition", include_str!("../../scenes/disk_competition.toml")),
+    ("disk_mistuned", include_str!("../../scenes/disk_mistuned.toml")),
+    ("disk_shroud", include_str!("../../scenes/disk_shroud.toml")),
+    ("chain_100", include_str!("../../scenes/chain_100.toml")),
+];
+
 impl Scene {
     /// The built-in scene `limit_torus`.
     ///

@@ -16,7 +16,7 @@ pub use description::{
 pub use direction::{CameraMove, Caption, Direction, Easing, Key, Panel, SlowMotion, View};
 pub use disk::{DiskCase, DiskStart, WaveStart};
 pub use error::{Fault, Place, SceneError};
-pub use load::BUILT_IN;
+pub use load::{BUILT_IN, BUILT_IN_DISKS};
 pub use ramp::{Excitation, Ramp};
 pub use story::Story;
 

@@ -88,7 +88,7 @@ pub fn draw_status(
 }
 
 /// At most four significant digits after the point, without trailing zeros.
-fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     let digits = format!("{value:.4}");
     let digits = digits.trim_end_matches('0').trim_end_matches('.');
     digits.replace('-', "−")

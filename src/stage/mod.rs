@@ -2,6 +2,7 @@
 //!
 //! A frame is a pure function of its index: it shows the motion at `index * speed / fps`.
 
+mod disk;
 mod envelope;
 mod ghost;
 mod labels;
@@ -12,10 +13,13 @@ mod palette;
 mod panels;
 mod plot;
 mod rig;
+mod take;
 
+pub use disk::{DeflectionColours, DiskInstant, DiskMotion, DiskStage};
 pub use motion::{Body, Instant, Motion};
 pub use panels::DampingMap;
 pub use plot::{Axis, Plot};
+pub use take::Take;
 
 use crate::render::{Anchor, Camera, DrawList, OverlayItem, Rectangle};
 use crate::scene::{Case, View};

@@ -144,7 +144,7 @@ fn between(left: &Instant, right: &Instant, time: f64) -> Instant {
     }
 }
 
-fn ledger_between(left: &EnergyLedger, right: &EnergyLedger, s: f64) -> EnergyLedger {
+pub(super) fn ledger_between(left: &EnergyLedger, right: &EnergyLedger, s: f64) -> EnergyLedger {
     let mix = |a: f64, b: f64| a + s * (b - a);
     let (a, b) = (&left.works, &right.works);
     EnergyLedger {

@@ -86,14 +86,22 @@ pub struct Plot {
     pub y_label: String,
     pub x: Axis,
     pub y: Axis,
+    /// Free border at the right of the area, pixels of a 720 lines high picture.
+    pub right: f32,
 }
+
+/// Free border at the right of a plot with nothing there.
+pub const RIGHT: f32 = 14.0;
 
 impl Plot {
     /// The part of the panel that data is drawn in.
     #[must_use]
     pub fn area(&self) -> Rectangle {
         let s = self.scale;
-        Rectangle { min: self.panel.min + Vec2::new(50.0, 40.0) * s, max: self.panel.max - Vec2::new(14.0, 24.0) * s }
+        Rectangle {
+            min: self.panel.min + Vec2::new(50.0, 40.0) * s,
+            max: self.panel.max - Vec2::new(self.right, 24.0) * s,
+        }
     }
 
     /// Pixel of a data point.
@@ -245,6 +253,7 @@ mod tests {
             y_label: String::new(),
             x: Axis::exactly(0.0, 10.0),
             y: Axis::exactly(-1.0, 1.0),
+            right: RIGHT,
         };
         assert_eq!(plot.pixel(0.0, -1.0), Vec2::new(150.0, 226.0));
         assert_eq!(plot.pixel(10.0, 1.0), Vec2::new(386.0, 90.0));

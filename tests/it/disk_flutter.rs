@@ -17,7 +17,7 @@ fn plan(samples: usize) -> MonteCarlo {
         mistuning: Some(Mistuning::Normal { standard_deviation: 0.03, seed: 0 }),
         ..BladedDisk::ring(8, 0.02)
     };
-    MonteCarlo { disk, samples, first_seed: 100, periods: 60.0, start: 1.5 }
+    MonteCarlo { disk, samples, first_seed: 100, periods: 60.0, longest: 240.0, start: 1.5 }
 }
 
 fn on_threads(plan: &MonteCarlo, threads: usize, record: Option<&OutputDir>) -> Vec<SampleRow> {

@@ -82,7 +82,7 @@ fn list(golden: &Golden) -> DrawList {
 
 /// Structural difference `1 - SSIM` of the brightness in each window (Wang, Bovik, Sheikh & Simoncelli, IEEE Trans. Image Processing 13
 /// (2004) 600-612, equation (13), K1 = 0.01, K2 = 0.03), windows side by side.
-fn differences(a: &RgbaImage, b: &RgbaImage) -> Vec<f64> {
+pub fn differences(a: &RgbaImage, b: &RgbaImage) -> Vec<f64> {
     assert_eq!(a.dimensions(), b.dimensions());
     let [a, b] = [a, b].map(imageops::grayscale);
     let (c1, c2) = ((0.01_f64 * 255.0).powi(2), (0.03_f64 * 255.0).powi(2));
@@ -105,7 +105,7 @@ fn differences(a: &RgbaImage, b: &RgbaImage) -> Vec<f64> {
         .collect()
 }
 
-fn worst(differences: &[f64]) -> f64 {
+pub fn worst(differences: &[f64]) -> f64 {
     differences.iter().copied().fold(0.0, f64::max)
 }
 
@@ -117,11 +117,11 @@ fn stored(golden: &Golden) -> RgbaImage {
     image::open(path(golden)).unwrap().to_rgba8()
 }
 
-fn draw(list: &DrawList, choice: RendererChoice) -> Option<RgbaImage> {
+pub fn draw(list: &DrawList, choice: RendererChoice) -> Option<RgbaImage> {
     Some(open(choice).ok()?.draw(list).unwrap().0)
 }
 
-fn on_cpu(list: &DrawList) -> RgbaImage {
+pub fn on_cpu(list: &DrawList) -> RgbaImage {
     draw(list, RendererChoice::Cpu).unwrap()
 }
 

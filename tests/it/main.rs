@@ -36,6 +36,7 @@ mod disk_cli;
 #[cfg(feature = "engine")]
 mod disk_engine;
 mod disk_exact;
+mod disk_film;
 mod disk_flutter;
 mod disk_linear;
 mod disk_waves;
@@ -51,6 +52,7 @@ mod film;
 mod general_solver;
 #[cfg(feature = "render")]
 mod golden;
+mod golden_disk;
 mod harmonic_balance;
 mod hopf;
 #[cfg(feature = "engine")]
@@ -75,6 +77,8 @@ mod reference_trajectory;
 mod scenes;
 #[cfg(feature = "render")]
 mod shaders;
+#[cfg(feature = "cli")]
+mod shared_model;
 mod small_disk;
 #[cfg(feature = "render")]
 mod small_scene;

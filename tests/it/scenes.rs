@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
-use stickslip::scene::{BUILT_IN, Scene};
+use stickslip::scene::{BUILT_IN, BUILT_IN_DISKS, Scene};
 
 fn scene_files() -> Vec<PathBuf> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
@@ -14,7 +14,7 @@ fn scene_files() -> Vec<PathBuf> {
 #[test]
 fn every_scene_file_is_valid_and_says_what_to_look_at() {
     let files = scene_files();
-    assert!(files.len() >= BUILT_IN.len());
+    assert!(files.len() >= BUILT_IN.len() + BUILT_IN_DISKS.len());
     for file in files {
         Scene::load(&file).unwrap();
         let text = fs::read_to_string(&file).unwrap();
@@ -24,7 +24,7 @@ fn every_scene_file_is_valid_and_says_what_to_look_at() {
 
 #[test]
 fn every_built_in_scene_is_the_file_of_its_name() {
-    for (name, text) in BUILT_IN {
+    for (name, text) in BUILT_IN.into_iter().chain(BUILT_IN_DISKS) {
         let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         assert_eq!(fs::read_to_string(path).unwrap(), text);
     }

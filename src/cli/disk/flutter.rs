@@ -24,9 +24,12 @@ pub struct FlutterArgs {
     /// Seed of the first sample; the others follow by one.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Length of each motion in periods 2 pi of a blade.
+    /// Length of each motion in periods 2 pi of a blade; motions that have not settled to 1 % go on.
     #[arg(long, default_value_t = 400.0, allow_hyphen_values = true)]
     periods: f64,
+    /// Length up to which they go on, in steps of four times; those not settled by then are counted apart. 16 times --periods without it.
+    #[arg(long, allow_hyphen_values = true)]
+    longest: Option<f64>,
     /// Displacements at the start are uniform from minus this to this.
     #[arg(long, default_value_t = 0.5, allow_hyphen_values = true)]
     start: f64,
@@ -38,9 +41,15 @@ pub struct FlutterArgs {
 
 pub fn run(args: &FlutterArgs) -> anyhow::Result<Verdict> {
     args.plot.check(args.common.force)?;
-    let disk = super::load(&args.scene)?.0.disk;
-    let plan =
-        MonteCarlo { disk, samples: args.samples, first_seed: args.seed, periods: args.periods, start: args.start };
+    let disk = super::load(&args.scene)?.disk;
+    let plan = MonteCarlo {
+        disk,
+        samples: args.samples,
+        first_seed: args.seed,
+        periods: args.periods,
+        longest: args.longest.unwrap_or(16.0 * args.periods),
+        start: args.start,
+    };
     let parameters = json!(plan);
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let origin = Origin::new("disk flutter", parameters.clone());
@@ -64,22 +73,23 @@ pub fn run(args: &FlutterArgs) -> anyhow::Result<Verdict> {
     let Summary { fates, probability_of_linear_flutter: p, standard_error, .. } = &summary;
     print(&format!("linear flutter in {:.1} +- {:.1} % of {} disks", 100.0 * p, 100.0 * standard_error, rows.len()))?;
     print(&format!(
-        "stable {}, flutter held by friction {}, diverged {}",
-        fates.stable, fates.flutter, fates.diverged
+        "stable {}, flutter held by friction {}, not settled {}, diverged {}",
+        fates.stable, fates.flutter, fates.unsettled, fates.diverged
     ))?;
     if let [low, _, median, _, high] = summary.amplitude_quantiles[..] {
         print(&format!(
-            "largest amplitude of a blade in flutter: median {median:.4}, 5 to 95 %: {low:.4} to {high:.4}"
+            "largest amplitude of a blade in settled flutter: median {median:.4}, 5 to 95 %: {low:.4} to {high:.4}"
         ))?;
-        print(&format!("{} of them had not settled to 1 %: lengthen --periods if that is many", summary.unsettled))?;
     }
+    let lengths: Vec<String> = summary.lengths.iter().map(|(periods, count)| format!("{count} to {periods}")).collect();
+    print(&format!("disks followed over periods: {}", lengths.join(", ")))?;
     Ok(Verdict::Done)
 }
 
 /// Distribution functions of the largest and the mean amplitude of fluttering disks.
 fn chart(rows: &[SampleRow]) -> Chart {
     let distribution = |label: &str, of: fn(&SampleRow) -> f64, tint| {
-        let mut values: Vec<f64> = rows.iter().filter(|row| row.fate == Fate::Flutter).map(of).collect();
+        let mut values: Vec<f64> = rows.iter().filter(|row| row.fate == Fate::Flutter && row.settled).map(of).collect();
         values.sort_by(f64::total_cmp);
         let count = values.len() as f64;
         let points = values.iter().enumerate().map(|(i, v)| (*v, (i + 1) as f64 / count)).collect();
@@ -88,7 +98,7 @@ fn chart(rows: &[SampleRow]) -> Chart {
     Chart {
         title: "Flutter amplitudes under random mistuning".to_owned(),
         x_label: "amplitude".to_owned(),
-        y_label: "part of the fluttering disks below".to_owned(),
+        y_label: "part of the settled fluttering disks below".to_owned(),
         series: vec![
             distribution("largest of all blades", |row| row.amplitude, Tint::Vermillion),
             distribution("mean over the blades", |row| row.mean_amplitude, Tint::Blue),

@@ -1,12 +1,12 @@
 //! `disk simulate`: the motion of a disk as amplitudes of its waves over time.
 
-use super::super::Verdict;
 use super::super::common::{Common, Document, print};
 use super::super::plot::PlotArgs;
 use super::super::simulate::refuse_to_overwrite;
-use crate::disk::{strongest, wave_amplitudes};
+use super::super::{Verdict, case_args::EngineArgs, motions};
+use super::solver::{Seen, Solver, observe};
+use crate::disk::strongest;
 use crate::dynamics::{Outcome, Sampling, State};
-use crate::exact::SparseFlow;
 use crate::model::{Mistuning, NodalDiameter, OscillatorChain, ParameterError, Topology};
 use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::DiskCase;
@@ -20,13 +20,20 @@ const MOST_SAMPLES: f64 = 1e7;
 /// Series of a chart: as many as there are colours.
 const TINTS: [Tint; 5] = [Tint::Blue, Tint::Orange, Tint::Green, Tint::Vermillion, Tint::Purple];
 
-/// The exact motion of the disk: amplitude of every wave over time, by nodal diameter (of a chain, by blade).
+/// The motion of the disk: amplitude of every wave over time, by nodal diameter (of a chain, by blade).
+///
+/// Waves are seen at their own frequencies with stuck contacts: amplitudes of the exact motion and of the engine are off by half the part by
+/// which slip lowers the frequency.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  stickslip disk simulate scenes/disk_competition.toml -o waves.csv --plot waves.svg"
+    after_help = "Examples:\n  stickslip disk simulate scenes/disk_competition.toml -o waves.csv --plot waves.svg\n  \
+    stickslip disk simulate scenes/disk_competition.toml --with slow-flow --t-end 20000 --sample 10 --json"
 )]
 pub struct MotionArgs {
     scene: PathBuf,
+    /// How to move the disk.
+    #[arg(long = "with", value_enum, default_value_t = Solver::Exact)]
+    solver: Solver,
     /// Length of the motion; that of the scene without it.
     #[arg(long, allow_hyphen_values = true)]
     t_end: Option<f64>,
@@ -34,57 +41,63 @@ pub struct MotionArgs {
     #[arg(long, value_name = "DT", default_value_t = 1.0, allow_hyphen_values = true)]
     sample: f64,
     #[command(flatten)]
+    engine: EngineArgs,
+    #[command(flatten)]
     plot: PlotArgs,
     #[command(flatten)]
     common: Common,
 }
 
 pub fn run(args: &MotionArgs) -> anyhow::Result<Verdict> {
+    ensure!(
+        args.solver == Solver::Rapier || !args.engine.is_given(),
+        "options of the engine decide about the engine alone: add --with rapier or leave them out"
+    );
     args.plot.check(args.common.force)?;
-    let (case, duration) = super::load(&args.scene)?;
-    let chain = case.disk.chain()?;
-    let sampling = Sampling { interval: args.sample, t_end: args.t_end.unwrap_or(duration) };
+    let (whole, case) = super::load_case(&args.scene, Some(&args.engine))?;
+    let sampling = Sampling { interval: args.sample, t_end: args.t_end.unwrap_or(whole.duration) };
     let samples = sampling.t_end / sampling.interval * case.disk.sectors as f64;
     ensure!(
         samples <= MOST_SAMPLES,
         "--sample {} gives {samples:e} numbers, allowed are {MOST_SAMPLES:e}: take a longer one",
         args.sample
     );
-    let parameters = json!({"disk": case.disk, "start": case.start, "sampling": sampling});
+    let engine = motions::engine_settings(&whole, sampling);
+    let mut parameters =
+        json!({"disk": case.disk, "start": case.start, "sampling": sampling, "with": args.solver.word()});
+    if args.solver == Solver::Rapier {
+        parameters["engine"] = json!(engine);
+    }
     if let Some(path) = &args.common.output {
         refuse_to_overwrite(path, &parameters, args.common.force)?;
     }
     let ring = case.disk.topology == Topology::Ring;
-    let blades = case.disk.sectors;
-    let (mut times, mut rows) = (Vec::new(), Vec::new());
-    let seen = |state: &State| match ring {
-        true => wave_amplitudes(state, blades, 1.0),
-        false => (0..blades).map(|j| state.positions[j].hypot(state.velocities[j])).collect(),
-    };
-    let arrival = SparseFlow::new(&chain).observe(&start(&case, &chain)?, sampling, |t, state, _| {
-        times.push(t);
-        rows.push(seen(state));
-    })?;
+    let from = start(&case, &case.disk.chain()?)?;
+    let seen = observe(args.solver, &case.disk, &from, sampling, engine)?;
     if let Some(path) = &args.common.output {
-        write_table(path, &table(&times, &rows, ring, &parameters))?;
+        write_table(path, &table(&seen.times, &seen.rows, ring, &parameters))?;
     }
-    args.plot.draw(|| Ok(chart(&times, &rows, ring)))?;
-    let last = rows.last().cloned().unwrap_or_default();
-    let diverged = arrival.outcome != Outcome::Completed;
-    let winner = ring.then(|| strongest(&last).signed());
+    args.plot.draw(|| Ok(chart(&seen.times, &seen.rows, ring)))?;
     if args.common.json {
-        let document = Document::new("disk simulate", parameters)
-            .with("final", json!({"t": times.last(), "amplitudes": last, "strongest_nodal_diameter": winner}))
-            .with("events", json!(arrival.switches))
-            .with("diverged", json!(diverged));
-        return print(&document.text()?).map(|()| Verdict::Done);
+        return print(&document(&seen, parameters, ring).text()?).map(|()| Verdict::Done);
     }
-    let end = if diverged { "diverged" } else { "completed" };
-    print(&format!("{end}, {} changes of contact state", arrival.switches))?;
-    if let Some(n) = winner {
-        print(&format!("strongest wave at the end: nodal diameter {n}"))?;
+    let end = if seen.outcome == Outcome::Completed { "completed" } else { "diverged" };
+    let switches = seen.switches.map_or(String::new(), |count| format!(", {count} changes of contact state"));
+    print(&format!("{end}{switches}"))?;
+    if let Some(last) = seen.rows.last().filter(|_| ring) {
+        print(&format!("strongest wave at the end: nodal diameter {}", strongest(last).signed()))?;
     }
     Ok(Verdict::Done)
+}
+
+fn document(seen: &Seen, parameters: Value, ring: bool) -> Document {
+    let last = seen.rows.last().cloned().unwrap_or_default();
+    let winner = ring.then(|| strongest(&last).signed());
+    Document::new("disk simulate", parameters)
+        .with("final", json!({"t": seen.times.last(), "amplitudes": last, "strongest_nodal_diameter": winner}))
+        .with("events", json!(seen.switches))
+        .with("work", seen.work.clone())
+        .with("diverged", json!(seen.outcome != Outcome::Completed))
 }
 
 /// The state a disk starts from.

@@ -51,7 +51,7 @@ struct Growth {
 pub fn run(args: &WavesArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("disk waves")?;
     args.plot.check(args.common.force)?;
-    let disk = super::load(&args.scene)?.0.disk.tuned();
+    let disk = super::load(&args.scene)?.disk.tuned();
     let flow = SparseFlow::new(&disk.chain()?);
     let waves: Vec<NodalDiameter> = NodalDiameter::all(disk.sectors).collect();
     let found: Vec<(NodalDiameter, Result<Cycle, DiskError>)> =

@@ -3,7 +3,8 @@
 use super::rapier::prelude::*;
 use super::world::{cuboid, integration_parameters, narrow, prismatic, real, wide};
 use crate::engine::EngineError;
-use crate::engine::geometry::{GRAVITY, JointDrift};
+use crate::engine::geometry::JointDrift;
+use crate::engine::layout::GRAVITY;
 use crate::engine::mechanism::{
     CarriagePlan, FrictionMechanism, LinearMechanism, NativeBlueprint, NativeWorld, SliderPlan, SpringPlan,
 };

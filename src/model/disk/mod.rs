@@ -16,6 +16,8 @@
 //! The nodal diameter is signed, `-N/2 < n <= N/2`; `n = 0` and `n = N/2` are standing. Much of the literature takes the opposite sign
 //! of sigma: compare the direction of travel, not the sign.
 //!
+#![doc = include_str!("../../../assets/disk_conventions.svg")]
+//!
 //! # Aerodynamic forces
 //!
 //! The motion of blade j+k acts on blade j through the complex influence coefficient `L_k`, on the left of the equation of motion:
@@ -50,6 +52,7 @@ mod friction;
 mod influence;
 mod mistuning;
 mod mode_shape;
+mod spectrum;
 mod tuned;
 mod wave;
 
@@ -58,5 +61,6 @@ pub use friction::{ContactPlace, FrictionContacts};
 pub use influence::{Aerodynamics, InfluenceCoefficient, InfluenceCoefficients};
 pub use mistuning::{Harmonic, Mistuning};
 pub use mode_shape::ModeShape;
+pub use spectrum::Spectrum;
 pub use tuned::TunedMode;
 pub use wave::{NodalDiameter, TravelDirection};

@@ -41,6 +41,21 @@ impl BladedDisk {
         Ok(modes)
     }
 
+    /// Frequencies to see the waves of a ring at, by wave number 0 to N - 1: the lowest of each with stuck contacts, without mistuning; contacts on
+    /// chosen sectors count as if they were on none.
+    ///
+    /// # Errors
+    /// As [`Self::tuned_modes`].
+    pub fn wave_frequencies(&self) -> Result<Vec<f64>, ModesError> {
+        let everywhere = self.friction.iter().filter(|contacts| contacts.sectors.is_none()).cloned().collect();
+        let modes = Self { friction: everywhere, ..self.tuned() }.tuned_modes(true)?;
+        let mut frequencies = vec![1.0; self.sectors];
+        for mode in modes.iter().filter(|mode| mode.family == 0) {
+            frequencies[mode.wave.index()] = mode.mode.angular_frequency;
+        }
+        Ok(frequencies)
+    }
+
     /// Aerodynamic damping of each wave at the reference frequency, the S-curve, in order of [`NodalDiameter::all`].
     ///
     /// # Errors

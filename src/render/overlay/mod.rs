@@ -12,10 +12,15 @@ use super::alpha::{premultiply, straighten};
 use super::draw_list::{Colour, DrawList, OverlayItem, Rectangle, Stroke};
 use glam::Vec2;
 use image::RgbaImage;
+use std::sync::Arc;
 use text::Fonts;
 use vello_cpu::color::AlphaColor;
-use vello_cpu::kurbo::{BezPath, Cap, Circle, Join, Point, Rect, RoundedRect, Shape, Stroke as Pen};
-use vello_cpu::{Level, PixmapMut, RasterizerSettings, RenderContext, RenderSettings, Resources, TargetInit};
+use vello_cpu::kurbo::{Affine, BezPath, Cap, Circle, Join, Point, Rect, RoundedRect, Shape, Stroke as Pen};
+use vello_cpu::peniko::{ImageQuality, ImageSampler};
+use vello_cpu::{
+    Image, ImageSource, Level, Pixmap, PixmapMut, RasterizerSettings, RenderContext, RenderSettings, Resources,
+    TargetInit,
+};
 
 /// Largest error of a curve's polygon, in pixels.
 const FLATNESS: f64 = 0.05;
@@ -84,6 +89,7 @@ impl Overlay {
                 set_colour(canvas, *fill);
                 canvas.fill_path(&outline);
             }),
+            OverlayItem::Raster { area, columns, cells } => raster(canvas, area, *columns, cells)?,
             OverlayItem::Text { position, anchor, size, colour, bold, text } => {
                 set_colour(canvas, *colour);
                 let line = self.fonts.face(*bold).lay_out(text, *size, *anchor, *position);
@@ -116,6 +122,7 @@ fn check(item: &OverlayItem) -> Result<(), String> {
         OverlayItem::Line { points, stroke, clip } => places(points) && fits(&[stroke.width]) && window(clip),
         OverlayItem::Polygon { points, clip, .. } => places(points) && window(clip),
         OverlayItem::Disc { centre, radius, stroke, .. } => places(&[*centre]) && fits(&[*radius]) && pen(stroke),
+        OverlayItem::Raster { area, .. } => places(&[area.min, area.max]),
         OverlayItem::Text { position, size, .. } => places(&[*position]) && fits(&[*size]) && *size > 0.0,
     };
     if drawable {
@@ -163,6 +170,29 @@ fn draw_stroke(canvas: &mut RenderContext, outline: &BezPath, stroke: Stroke) {
         canvas.set_stroke(Pen::new(f64::from(stroke.width)).with_join(Join::Round).with_caps(Cap::Round));
         canvas.stroke_path(outline);
     }
+}
+
+/// The cells as an image, stretched without smoothing.
+fn raster(canvas: &mut RenderContext, area: &Rectangle, columns: usize, cells: &[Colour]) -> Result<(), String> {
+    let side = |count: usize| u16::try_from(count).ok().filter(|count| *count > 0);
+    let rows = cells.len().checked_div(columns).filter(|rows| rows * columns == cells.len());
+    let sides = side(columns).zip(rows.and_then(side));
+    let (width, height) = sides.ok_or("a raster needs 1 to 65535 whole rows and columns")?;
+    let mut image = Pixmap::new(width, height);
+    for (pixel, cell) in image.data_as_u8_slice_mut().as_chunks_mut::<4>().0.iter_mut().zip(cells) {
+        let [r, g, b, _] = cell.0;
+        *pixel = [r, g, b, u8::MAX];
+    }
+    let (from, size) = (point(area.min), area.max - area.min);
+    let scale = [size.x / f32::from(width), size.y / f32::from(height)].map(f64::from);
+    canvas.set_paint(Image {
+        image: ImageSource::Pixmap(Arc::new(image)),
+        sampler: ImageSampler { quality: ImageQuality::Low, ..ImageSampler::default() },
+    });
+    canvas.set_paint_transform(Affine::translate(from.to_vec2()) * Affine::scale_non_uniform(scale[0], scale[1]));
+    canvas.fill_rect(&rectangle(area));
+    canvas.reset_paint_transform();
+    Ok(())
 }
 
 fn clipped(canvas: &mut RenderContext, clip: &Option<Rectangle>, draw: impl FnOnce(&mut RenderContext)) {

@@ -3,13 +3,17 @@
 //! Turned bodies lie along +x and begin at the origin; blocks and spheres are centred. Lengths in world units. Sizes that do not fit
 //! (a bevel wider than its body, fewer than three segments) are reduced or raised to the nearest that does.
 
+mod blade;
 mod block;
 mod coil;
 mod turned;
+mod wire;
 
+pub use blade::Blade;
 pub use block::{block, floor};
 pub use coil::{Coil, coil};
 pub use turned::{arrow, cylinder, open_tube, sphere, tube};
+pub use wire::wire;
 
 use super::draw_list::Mesh;
 use glam::Vec3;
@@ -47,6 +51,24 @@ mod tests {
         mesh.triangles.iter().map(|&t| corners(mesh, t)).map(|[a, b, c]| (b - a).cross(c - a)).sum::<Vec3>().length()
     }
 
+    /// Part of chord times thickness that the section of a blade fills: trapezoids between its four corners.
+    const BLADE_SECTION: f32 = 0.28 * 0.54 + 0.34 * 0.89 + 0.38 * 0.48;
+
+    fn bent_blade() -> Blade {
+        Blade { length: 2.0, chord: [0.5, 0.5], thickness: [0.08, 0.08], stagger: [0.3, 0.9], stations: 9 }
+    }
+
+    #[test]
+    fn a_bent_blade_keeps_its_length_and_reaches_its_deflection() {
+        let blade = bent_blade();
+        let deflection = [0.1, 0.5];
+        let line: Vec<Vec3> = (0..=200).map(|n| blade.middle(n as f32 / 200.0, deflection)).collect();
+        assert_eq!((line[0].y, line[200].y), (0.1, 0.6));
+        let length: f32 = line.windows(2).map(|pair| (pair[1] - pair[0]).length()).sum();
+        // What is left out is of fourth order in the slope, 3/2 of 0.5/2 at the tip: its mean over the span is below a tenth of that.
+        assert!((length / 2.0 - 1.0).abs() < 0.1 * 0.375_f32.powi(4), "{length}");
+    }
+
     fn bodies() -> Vec<(&'static str, Mesh, f32)> {
         let coil_shape = Coil { coil_radius: 0.5, wire_radius: 0.05, turns: 8.0, ..Coil::default() };
         let wire_length = 8.0 * (2.0 * PI * 0.5_f32).hypot((2.0 - 0.1) / 8.0);
@@ -57,6 +79,8 @@ mod tests {
             ("open tube", open_tube(2.0, 0.5, 0.3, [0.4, 1.2], 48), (PI - 0.6) * 2.0 * (0.25 - 0.09)),
             ("sphere", sphere(0.5, 32), 4.0 / 3.0 * PI * 0.125),
             ("arrow", arrow(2.0, 0.1, 0.5, 0.3, 32), PI * (0.01 * 1.5 + 0.09 * 0.5 / 3.0)),
+            ("blade", bent_blade().mesh([0.1, 0.4]), 1.01 * BLADE_SECTION * 0.5 * 0.08 * 2.0),
+            ("wire", wire(&[Vec3::ZERO, Vec3::X, Vec3::new(2.0, 0.5, 0.0)], 0.1, 24, false), PI * 0.01 * 2.118),
             ("coil", coil(2.0, &coil_shape), PI * 0.05 * 0.05 * wire_length),
         ]
     }

@@ -1,7 +1,8 @@
 //! The live panels. Each says what it shows in the units of the scene, and shows nothing that is still to come.
 
 mod amplitudes;
-mod energy;
+pub(super) mod bars;
+pub(super) mod energy;
 mod map;
 mod planes;
 mod series;
@@ -10,7 +11,7 @@ pub use map::DampingMap;
 
 use super::motion::{Instant, Motion};
 use super::palette::Palette;
-use super::plot::{Axis, Plot};
+use super::plot::{Axis, Plot, RIGHT};
 use crate::model::Scales;
 use crate::render::{OverlayItem, Rectangle};
 use crate::scene::{Case, Panel};
@@ -58,7 +59,17 @@ impl Frame<'_> {
     fn plot(&self, panel: Rectangle, title: &str, [x_label, y_label]: [String; 2], [x, y]: [Axis; 2]) -> Plot {
         let is_small = panel.max.x - panel.min.x < SMALL * self.scale;
         let [x, y] = if is_small { [x.sparse(), y.sparse()] } else { [x, y] };
-        Plot { panel, scale: self.scale, palette: self.palette, title: title.to_owned(), x_label, y_label, x, y }
+        Plot {
+            panel,
+            scale: self.scale,
+            palette: self.palette,
+            title: title.to_owned(),
+            x_label,
+            y_label,
+            x,
+            y,
+            right: RIGHT,
+        }
     }
 
     /// `name` alone, or with its unit where the scene is in SI.
@@ -80,14 +91,18 @@ impl Panels {
     ) -> Self {
         let frame = Frame { motion, scales: case.scales, scale, palette };
         let panel = |(&kind, &place): (&Panel, &Rectangle)| match kind {
-            Panel::Series => Drawn::Series(Series::new(&frame, place)),
-            Panel::Hysteresis => Drawn::Hysteresis(Hysteresis::new(&frame, place)),
-            Panel::Phase => Drawn::Phase(PhasePlane::new(&frame, place)),
-            Panel::Amplitudes => Drawn::Amplitudes(Amplitudes::new(&frame, place)),
-            Panel::Energy => Drawn::Energy(Energy::new(&frame, place, case.prescribed.is_some())),
-            Panel::Map => Drawn::Map(Map::new(&frame, place, map.cloned().unwrap_or_default(), case.excitation())),
+            Panel::Series => Some(Drawn::Series(Series::new(&frame, place))),
+            Panel::Hysteresis => Some(Drawn::Hysteresis(Hysteresis::new(&frame, place))),
+            Panel::Phase => Some(Drawn::Phase(PhasePlane::new(&frame, place))),
+            Panel::Amplitudes => Some(Drawn::Amplitudes(Amplitudes::new(&frame, place))),
+            Panel::Energy => Some(Drawn::Energy(Energy::new(&frame, place, case.prescribed.is_some()))),
+            Panel::Map => {
+                Some(Drawn::Map(Map::new(&frame, place, map.cloned().unwrap_or_default(), case.excitation())))
+            }
+            // Of disks: a case about the rig has none.
+            Panel::Spectrum | Panel::Carpet => None,
         };
-        Self { drawn: case.panels().iter().zip(places).map(panel).collect() }
+        Self { drawn: case.panels().iter().zip(places).filter_map(panel).collect() }
     }
 
     /// All panels as they stand at `now`.
