@@ -1,12 +1,14 @@
-//! `conformance`: how wrong the engine is; with `export` and `judge`, how wrong another engine is.
+//! `conformance`: how wrong the engine is, and what changed since an earlier run.
 
 use super::Verdict;
-use super::common::{Common, Document, print};
+use super::common::{Common, print};
+use super::exchange::{ExportArgs, JudgeArgs, export, judge};
 use super::progress::Heartbeat;
 use crate::conformance::{
-    Archive, Changes, Depth, Rapier, Report, Score, Setup, Timing, compute, costs, html, markdown, registry,
+    Archive, Baseline, Change, Changes, Depth, Rapier, Report, Row, Timing, about, compute, costs, found_and_expected,
+    html, markdown, registry,
 };
-use crate::store::{Existing, Origin, OutputDir, sha256_hex};
+use crate::store::{Existing, Origin, OutputDir, sha256_hex, write_atomically};
 use anyhow::{Context, ensure};
 use clap::{Args, Subcommand};
 use serde_json::json;
@@ -14,15 +16,23 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const DEFAULT_DIRECTORY: &str = "reports/conformance";
+/// Lines of each kind that are printed; all are in the files.
+const LINES: usize = 20;
 
 /// How wrong the engine is, measured: report.html, report.md, report.json.
 ///
 /// Finished cases are saved as they come; an interrupted run goes on where it was. Exit status 1 if a number is not what the theory of its
-/// configuration predicts, or got worse than in the report given with --compare.
+/// configuration predicts. With --compare, exit status 1 only if something got worse, so that a known failure passes.
 #[derive(Debug, Args)]
 #[command(
     args_conflicts_with_subcommands = true,
-    after_help = "Examples:\n  stickslip conformance --quick -o reports/quick\n  stickslip conformance --compare old/report.json\n  \
+    after_help = "What --compare compares: rows are paired by scenario, variant, configuration, steps per period and quantity. A row got worse if its \
+                  verdict did (passed < not run < failed), or its physics (right < not judged < wrong), or if its number is gone. Rows that are gone \
+                  count as worse, and so do new rows that failed; other new rows are told. Numbers that moved by more than the row's tolerance, and \
+                  other reasons where there is no number, are told and decide nothing: between processors numbers differ in rounding.\n\n\
+                  Examples:\n  stickslip conformance --quick -o reports/quick\n  stickslip conformance --compare old/report.json\n  \
+                  stickslip conformance --quick --compare assets/conformance-baseline.json\n  \
+                  stickslip conformance --quick --write-baseline assets/conformance-baseline.json\n  \
                   stickslip conformance export -o setups\n  stickslip conformance judge mine/limit_cycle.csv"
 )]
 pub struct ConformanceArgs {
@@ -31,9 +41,12 @@ pub struct ConformanceArgs {
     /// A selection of configurations and steps; the rest is marked as not run.
     #[arg(long)]
     quick: bool,
-    /// Say what changed since this report.json.
+    /// Say what changed since this report.json or baseline of the same depth; exit status 1 only if something got worse.
     #[arg(long, value_name = "OLD.json")]
     compare: Option<PathBuf>,
+    /// Also write what later runs are to be compared with: identity, verdict, physics and number of every row.
+    #[arg(long, value_name = "FILE")]
+    write_baseline: Option<PathBuf>,
     #[command(flatten)]
     common: Common,
 }
@@ -42,24 +55,6 @@ pub struct ConformanceArgs {
 enum Task {
     Export(ExportArgs),
     Judge(JudgeArgs),
-}
-
-/// Write set-ups (JSON) and exact references (CSV) of the scenarios, for other engines.
-#[derive(Debug, Args)]
-#[command(after_help = "Example:\n  stickslip conformance export -o setups")]
-struct ExportArgs {
-    #[command(flatten)]
-    common: Common,
-}
-
-/// Score trajectories of another engine. A file NAME.csv is judged by the set-up NAME; columns t, x1, ..., v1, ... at the reference's times.
-#[derive(Debug, Args)]
-#[command(after_help = "Example:\n  stickslip conformance judge mine/limit_cycle.csv mine/friction_decay.csv")]
-struct JudgeArgs {
-    #[arg(required = true)]
-    files: Vec<PathBuf>,
-    #[command(flatten)]
-    common: Common,
 }
 
 pub fn run(args: &ConformanceArgs) -> anyhow::Result<Verdict> {
@@ -71,8 +66,8 @@ pub fn run(args: &ConformanceArgs) -> anyhow::Result<Verdict> {
 }
 
 fn report(args: &ConformanceArgs) -> anyhow::Result<Verdict> {
-    let old = args.compare.as_deref().map(Report::read).transpose()?;
     let depth = if args.quick { Depth::Quick } else { Depth::Full };
+    let old = args.compare.as_deref().map(|path| baseline(path, depth)).transpose()?;
     let root = args.common.output.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_DIRECTORY));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let directory = OutputDir::open(&root, &Origin::new("conformance", json!({"depth": depth})), existing)?;
@@ -85,15 +80,33 @@ fn report(args: &ConformanceArgs) -> anyhow::Result<Verdict> {
     let seconds = begun.elapsed().as_secs_f64();
     let timing = Timing { seconds, costs: costs(&rows, &Rapier)? };
     let report = Report::new(&scenarios, depth, rows, Some(timing));
-    let changes = old.map(|old| Changes::between(&old, &report));
+    let new = Baseline::of(&report);
+    let changes = old.map(|old| Changes::between(&old, &new));
     write_files(&directory, &report, changes.as_ref())?;
+    if let Some(path) = &args.write_baseline {
+        write_atomically(path, |writer| writer.write_all(new.text().as_bytes()))?;
+    }
     if args.common.json {
         print(&serde_json::to_string_pretty(&report).context("the report could not be written as JSON")?)?;
     } else {
         say(&report, changes.as_ref(), &root)?;
     }
-    let worse = changes.is_some_and(|changes| !changes.acceptable());
-    Ok(if report.tally.failed > 0 || worse { Verdict::Failed } else { Verdict::Done })
+    let good = changes.map_or(report.tally.failed == 0, |changes| changes.acceptable());
+    Ok(if good { Verdict::Done } else { Verdict::Failed })
+}
+
+/// What is known of an earlier run. Another depth has other rows, and there would be nothing to compare.
+fn baseline(path: &Path, depth: Depth) -> anyhow::Result<Baseline> {
+    let old = Baseline::read(path)?;
+    let word = |depth| if depth == Depth::Quick { "with --quick" } else { "in full" };
+    ensure!(
+        old.parameters.depth == depth,
+        "{}: was run {}, this run is {}: compare runs of the same depth",
+        path.display(),
+        word(old.parameters.depth),
+        word(depth)
+    );
+    Ok(old)
 }
 
 /// Of the running program, so that rows of another build are not taken over.
@@ -119,71 +132,47 @@ fn say(report: &Report, changes: Option<&Changes>, root: &Path) -> anyhow::Resul
         "as predicted: {} passed, {} failed, {} not run; physics: {} right, {} wrong",
         tally.passed, tally.failed, tally.not_run, tally.right, tally.wrong
     ))?;
-    for row in report.rows.iter().filter(|row| row.verdict == crate::conformance::Verdict::Failed).take(20) {
-        print(&format!("failed: {}: {}", row.identity(), row.reason))?;
-    }
+    let failed: Vec<&Row> =
+        report.rows.iter().filter(|row| row.verdict == crate::conformance::Verdict::Failed).collect();
+    lines("failed", &failed, |row| format!("{}: {}", about(row), found_and_expected(row)))?;
     if let Some(changes) = changes {
-        let Changes { worse, better, moved, gone, .. } = changes;
-        let (worse_count, better, moved, gone) = (worse.len(), better.len(), moved.len(), gone.len());
-        print(&format!("changes: {worse_count} worse, {better} better, {moved} moved, {gone} gone"))?;
-        worse.iter().take(20).try_for_each(|change| print(&format!("worse: {}", change.row)))?;
+        say_changes(changes)?;
     }
     print(&format!("{}", root.join("report.html").display()))
 }
 
-fn setups() -> anyhow::Result<Vec<Setup>> {
-    let mut all = Vec::new();
-    for scenario in registry() {
-        all.extend(scenario.setups()?);
+fn say_changes(changes: &Changes) -> anyhow::Result<()> {
+    let Changes { engines, worse, gone, added_failed, better, moved, other_reasons, added, common, .. } = changes;
+    if !engines.is_empty() {
+        print(&format!("the older run was made with {}", engines.join(", ")))?;
     }
-    Ok(all)
+    print(&format!(
+        "compared by verdict and physics, {common} rows: {} worse, {} gone, {} new of which {} failed, {} better; told only: {} numbers moved beyond \
+         their tolerance, {} other reasons",
+        worse.len(),
+        gone.len(),
+        added.len(),
+        added_failed.len(),
+        better.len(),
+        moved.len(),
+        other_reasons.len()
+    ))?;
+    lines("worse", worse, told)?;
+    lines("gone", gone, Clone::clone)?;
+    lines("new and failed", added_failed, Clone::clone)?;
+    lines("better", better, told)?;
+    let good: Vec<&String> = added.iter().filter(|name| !added_failed.contains(name)).collect();
+    lines("new", &good, |name| (*name).clone())?;
+    lines("moved", moved, told)?;
+    lines("other reason", other_reasons, told)
 }
 
-fn export(args: &ExportArgs) -> anyhow::Result<Verdict> {
-    let root = args.common.output.clone().context("export needs -o DIR")?;
-    let mut files = Vec::new();
-    for setup in setups()? {
-        let taken = root.join(format!("{}.csv", setup.name));
-        ensure!(
-            args.common.force || !taken.exists(),
-            "{} is there already: choose another directory, or --force",
-            taken.display()
-        );
-        files.extend(setup.write(&root)?);
-    }
-    if args.common.json {
-        let document = Document::new("conformance export", json!({})).with("files", json!(files));
-        return print(&document.text()?).map(|()| Verdict::Done);
-    }
-    files.iter().try_for_each(|file| print(&file.display().to_string()))?;
-    Ok(Verdict::Done)
+fn told(change: &Change) -> String {
+    format!("{}: {}", change.row, change.in_words())
 }
 
-fn judge(args: &JudgeArgs) -> anyhow::Result<Verdict> {
-    args.common.no_files("conformance judge")?;
-    let setups = setups()?;
-    let mut scores: Vec<Score> = Vec::new();
-    for file in &args.files {
-        let stem = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
-        let names = || setups.iter().map(|setup| setup.name.as_str()).collect::<Vec<_>>().join(", ");
-        let setup = setups.iter().find(|setup| setup.name == stem);
-        let setup = setup.with_context(|| {
-            format!("{}: no set-up is named {stem:?}, name the file after one of: {}", file.display(), names())
-        })?;
-        scores.push(setup.judge(file)?);
-    }
-    let right = scores.iter().all(|score| score.right);
-    if args.common.json {
-        let document = Document::new("conformance judge", json!({"files": args.files})).with("scores", json!(scores));
-        print(&document.text()?)?;
-    } else {
-        for score in &scores {
-            for check in &score.checks {
-                let found = check.found.map_or("none".to_owned(), |found| format!("{found:.3e}"));
-                let word = if check.right { "right" } else { "wrong" };
-                print(&format!("{}: {} {found}, limit {:.3e}: {word}", score.file, check.quantity, check.limit))?;
-            }
-        }
-    }
-    Ok(if right { Verdict::Done } else { Verdict::Failed })
+/// The first few, and how many there are beyond.
+fn lines<T>(word: &str, items: &[T], text: impl Fn(&T) -> String) -> anyhow::Result<()> {
+    items.iter().take(LINES).try_for_each(|item| print(&format!("{word}: {}", text(item))))?;
+    if items.len() > LINES { print(&format!("{word}: and {} more", items.len() - LINES)) } else { Ok(()) }
 }

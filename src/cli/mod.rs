@@ -8,6 +8,7 @@ mod conformance;
 mod damping_map;
 mod diagram;
 mod disk;
+mod exchange;
 mod film;
 mod gallery;
 mod generate;

@@ -58,6 +58,24 @@ impl Cycles {
         (!self.maxima.is_empty()).then(|| sum / self.maxima.len() as f64)
     }
 
+    /// Angular frequency of the rise and fall of the maxima, by the times at which they rise through their mean, interpolated; `None` with
+    /// fewer than three such times, which make two periods.
+    #[must_use]
+    pub fn modulation_frequency(&self) -> Option<f64> {
+        let mean = self.mean_maximum()?;
+        let rising = self.maxima.windows(2).filter(|pair| pair[0].value < mean && pair[1].value >= mean);
+        let times: Vec<f64> = rising
+            .map(|pair| {
+                let part = (mean - pair[0].value) / (pair[1].value - pair[0].value);
+                pair[0].time + part * (pair[1].time - pair[0].time)
+            })
+            .collect();
+        match times.as_slice() {
+            [first, _, .., last] => Some(TAU * (times.len() - 1) as f64 / (last - first)),
+            _ => None,
+        }
+    }
+
     /// Without what lies within one sample of the ends of the record, where the other motion may just have no partner for it.
     #[must_use]
     pub fn inner(&self, record: &Trajectory) -> Self {

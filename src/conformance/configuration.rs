@@ -94,18 +94,67 @@ impl Configuration {
         })
     }
 
+    /// Those with friction averaged over the step, which is made for one substep and changes nothing where there is no friction.
+    pub fn averaged() -> impl Iterator<Item = Self> {
+        let all = Self::hooks().filter(|c| c.substeps == 1 && c.scheme == Scheme::SecondOrder);
+        all.map(|c| Self { scheme: Scheme::AveragedFriction, ..c })
+    }
+
     /// For readers: `f64, impulse joints, 1 substep, second-order recipe`.
     #[must_use]
     pub fn label(self) -> String {
         let Self { precision, joints, mechanism, substeps, scheme } = self;
         let scheme = match scheme {
             Scheme::SecondOrder => "half-step start, predicted velocity",
+            Scheme::AveragedFriction => "half-step start, predicted velocity, friction averaged over the step",
             Scheme::LaggingDamping => "half-step start, late velocity",
             Scheme::Plain => "velocity at face value",
         };
-        let mechanism = if mechanism == Mechanism::Hook { String::new() } else { format!("{}, ", mechanism.word()) };
+        let mechanism = if mechanism == Mechanism::Hook {
+            String::new()
+        } else {
+            format!("{}, ", mechanism.word().replace('_', " "))
+        };
         let plural = if substeps == 1 { "" } else { "s" };
         format!("{}, {} joints, {mechanism}{substeps} substep{plural}, {scheme}", precision.word(), joints.word())
+    }
+
+    /// For legends, of the force laws as hooks: `recipe`, `face value, 4 substeps, f32`.
+    #[must_use]
+    pub fn short_name(self) -> String {
+        let Self { precision, joints, substeps, scheme, .. } = self;
+        let mut words = vec![scheme_name(scheme).to_owned()];
+        if (substeps, self.is_staggered()) != (1, true) {
+            words.push(format!("{substeps} substep{}", if substeps == 1 { "" } else { "s" }));
+        }
+        if joints == Joints::Multibody {
+            words.push("multibody joints".to_owned());
+        }
+        if precision == Precision::Single {
+            words.push("f32".to_owned());
+        }
+        words.join(", ")
+    }
+
+    /// What it has unlike another configuration: `multibody joints`.
+    #[must_use]
+    pub fn unlike(self, other: Self) -> String {
+        if self.scheme != other.scheme || self.substeps != other.substeps {
+            return self.short_name();
+        }
+        let mut words = Vec::new();
+        if self.joints != other.joints {
+            words.push(format!("{} joints", self.joints.word()));
+        }
+        if self.precision != other.precision {
+            words.push(self.precision.word().to_owned());
+        }
+        words.join(", ")
+    }
+
+    /// Whether positions, forces and velocities are all told at the instants they belong to.
+    fn is_staggered(self) -> bool {
+        matches!(self.scheme, Scheme::SecondOrder | Scheme::AveragedFriction)
     }
 
     #[must_use]
@@ -132,7 +181,16 @@ impl Configuration {
     /// Two where positions and forces are at the same instants, one otherwise: substeps move positions under a force that stands still.
     #[must_use]
     pub fn expected_order(self) -> f64 {
-        if self.scheme == Scheme::SecondOrder && self.substeps == 1 { 2.0 } else { 1.0 }
+        if self.is_staggered() && self.substeps == 1 { 2.0 } else { 1.0 }
+    }
+}
+
+fn scheme_name(scheme: Scheme) -> &'static str {
+    match scheme {
+        Scheme::SecondOrder => "recipe",
+        Scheme::AveragedFriction => "recipe, friction averaged",
+        Scheme::LaggingDamping => "late velocity",
+        Scheme::Plain => "face value",
     }
 }
 

@@ -1,3 +1,5 @@
+use super::hopf::HopfError;
+use crate::chaos::ChaosError;
 use crate::compare::CompareError;
 use crate::engine::EngineError;
 use crate::exact::ExactError;
@@ -11,35 +13,39 @@ use thiserror::Error;
 /// Why a part of the report could not be made.
 #[derive(Debug, Error)]
 pub enum ConformanceError {
-    #[error("conformance: {0}")]
+    #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error("conformance: reference: {0}")]
+    #[error("reference: {0}")]
     Exact(#[from] ExactError),
-    #[error("conformance: reference: {0}")]
+    #[error("reference: {0}")]
     Orbit(#[from] OrbitError),
-    #[error("conformance: reference: {0}")]
+    #[error("reference: {0}")]
     Modes(#[from] ModesError),
-    #[error("conformance: {0}")]
+    #[error(transparent)]
+    Hopf(#[from] HopfError),
+    #[error("reference: {0}")]
+    Chaos(#[from] ChaosError),
+    #[error(transparent)]
     Parameter(#[from] ParameterError),
-    #[error("conformance: {0}")]
+    #[error(transparent)]
     Compare(#[from] CompareError),
-    #[error("conformance: {0}")]
+    #[error(transparent)]
     Store(#[from] StoreError),
-    #[error("conformance: {0}")]
+    #[error(transparent)]
     Report(#[from] ReportError),
     /// A motion that does not show what was to be measured on it.
-    #[error("conformance: {scenario}: found {found} {what}, expected at least {expected}: the motion left its kind")]
+    #[error("{scenario}: found {found} {what}, expected at least {expected}: the motion left its kind")]
     TooFew { scenario: &'static str, what: &'static str, found: usize, expected: usize },
     /// A motion that ended early.
-    #[error("conformance: {scenario}: the motion exceeded {bound} at t = {time}, expected it to stay bounded")]
+    #[error("{scenario}: the motion exceeded {bound} at t = {time}, expected it to stay bounded")]
     Diverged { scenario: &'static str, time: f64, bound: f64 },
     /// A report or trajectory file that is not what it should be.
-    #[error("conformance: {path}: {reason}")]
+    #[error("{path}: {reason}")]
     File { path: PathBuf, reason: String },
     /// A configuration that a bench cannot build.
-    #[error("conformance: this bench has no {mechanism}")]
+    #[error("this bench has no {mechanism}")]
     NoMechanism { mechanism: &'static str },
     /// A scenario that does not exist.
-    #[error("conformance: there is no scenario {found:?}, expected one of: {known}")]
+    #[error("there is no scenario {found:?}, expected one of: {known}")]
     UnknownScenario { found: String, known: String },
 }

@@ -28,6 +28,9 @@ pub struct Ladder {
     /// Size of the quantity, against which an error is small.
     pub scale: f64,
     pub points: Vec<Rung>,
+    /// Whether the order is that of the difference equation even for configurations of second order: for quantities that scatter with the place
+    /// of a switch within a step.
+    scatters: bool,
 }
 
 /// An error at one step.
@@ -56,7 +59,13 @@ impl Ladder {
     /// Without points.
     #[must_use]
     pub fn new(scale: f64) -> Self {
-        Self { scale, points: Vec::new() }
+        Self { scale, points: Vec::new(), scatters: false }
+    }
+
+    /// Without points, of a quantity that scatters with the place of a switch within a step.
+    #[must_use]
+    pub fn scattering(scale: f64) -> Self {
+        Self { scatters: true, ..Self::new(scale) }
     }
 
     /// Adds an error at a step.
@@ -68,7 +77,7 @@ impl Ladder {
     /// between rounding and coarseness.
     #[must_use]
     pub fn row(&self, subject: &Subject, quantity: &str, tolerance: f64) -> Option<Row> {
-        let second = subject.configuration.expected_order() == 2.0;
+        let second = subject.configuration.expected_order() == 2.0 && !self.scatters;
         let largest = if second { SMALL * self.scale } else { f64::INFINITY };
         let fitted: Vec<&Rung> =
             self.points.iter().filter(|p| p.error > ABOVE_FLOOR * p.floor && p.error < largest).collect();

@@ -6,6 +6,7 @@ use super::row::Row;
 use super::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::store::{OutputDir, read_whole, sha256_hex};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Called with the number of finished cases and of all.
@@ -45,12 +46,29 @@ pub fn compute(
                 let reason = "only in the full run";
                 return Ok(vec![subject(*scenario, case).not_run("all quantities", reason)]);
             }
-            let rows = rows_of(*scenario, case, archive, bench)?;
+            let mut rows = rows_of(*scenario, case, archive, bench)?;
+            rows.extend(steps_left_out(*scenario, case, &cases));
             progress(done.fetch_add(1, Ordering::Relaxed) + 1, all);
             Ok(rows)
         })
         .collect::<Result<Vec<Vec<Row>>, ConformanceError>>()?;
     Ok(rows.into_iter().flatten().collect())
+}
+
+/// A row about the steps that other configurations of the same variant run, and this one does not.
+fn steps_left_out(scenario: &dyn Scenario, case: &Case, all: &[(&dyn Scenario, Case)]) -> Option<Row> {
+    let kin = all.iter().map(|(_, other)| other).filter(|other| {
+        other.scenario == case.scenario
+            && other.variant == case.variant
+            && other.configuration.mechanism == case.configuration.mechanism
+    });
+    let steps: BTreeSet<u32> = kin.flat_map(|other| &other.steps).copied().collect();
+    let missing: Vec<String> = steps.into_iter().filter(|n| !case.steps.contains(n)).map(|n| n.to_string()).collect();
+    let reason = format!(
+        "not run at {} steps per period in this configuration: costly, and shown by the configurations that tell most",
+        missing.join(", ")
+    );
+    (!missing.is_empty()).then(|| subject(scenario, case).not_run("other steps", &reason))
 }
 
 fn rows_of(

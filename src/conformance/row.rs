@@ -185,6 +185,21 @@ impl Row {
             Some(_) => Physics::Wrong,
             None => Physics::NotJudged,
         };
+        match self.tolerance {
+            // Whatever was found within so wide a tolerance, it could have been anything.
+            Some(tolerance) if tolerance > limit && self.verdict == Verdict::Passed => self.unresolved(&format!(
+                "the tolerance {tolerance:.1e} of the prediction is wider than what counts as right, {limit:.1e}"
+            )),
+            _ => self,
+        }
+    }
+
+    /// A number that is shown but tells nothing about what was asked: it neither passes nor fails, and says nothing about the truth.
+    #[must_use]
+    pub fn unresolved(mut self, reason: &str) -> Self {
+        self.verdict = Verdict::NotRun;
+        self.physics = Physics::NotJudged;
+        self.reason = format!("not resolved: {reason}");
         self
     }
 
@@ -238,6 +253,15 @@ mod tests {
         assert_eq!((row.verdict, row.physics), (Verdict::Passed, Physics::Wrong));
         let lucky = judged(-0.5, 0.0).against(0.0, 0.01);
         assert_eq!((lucky.verdict, lucky.physics), (Verdict::Failed, Physics::Right));
+    }
+
+    #[test]
+    fn what_could_have_been_anything_is_not_judged() {
+        let row = judged(0.0, 0.001).against(0.0, 0.005);
+        assert_eq!((row.verdict, row.physics), (Verdict::NotRun, Physics::NotJudged));
+        assert!(row.reason.contains("not resolved"), "{row:?}");
+        // A miss stays a miss.
+        assert_eq!(judged(0.0, 0.1).against(0.0, 0.005).verdict, Verdict::Failed);
     }
 
     #[test]

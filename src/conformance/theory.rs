@@ -9,6 +9,12 @@
 //! f_(i+1) = f_i + (k/R)(u_(i+1) - u_i), cut off at -1 and 1
 //! ```
 //!
+//! and where friction is averaged, f is carried half a step before x:
+//!
+//! ```text
+//! a_i = M^-1 F(x_i, u_i, mean of f along w_i t + a_(i-1) t^2/2, 0 < t < h),     f_(i+1) = f along w_i t + a_i t^2/2,  at t = h
+//! ```
+//!
 //! Written out here a second time, from the equations and in plain f64, so that a report row can tell an engine that behaves as its
 //! configuration must from one that does not. For `f = 0` it is linear: its eigenvalues mu give the frequency `arg(mu)/h` and the
 //! damping `-2 ln|mu|/h` of every mode. For one undamped oscillator of frequency w, with `r = w^2 h^2` and `e = 1 - c`:
@@ -20,7 +26,7 @@
 use super::Configuration;
 use crate::dynamics::{Outcome, Sample, State, Trajectory};
 use crate::engine::{DEFAULT_AMPLITUDE_BOUND, Scheme};
-use crate::model::{EnergyLedger, LinearMode, OscillatorChain};
+use crate::model::{EnergyLedger, JenkinsElement, LinearMode, OscillatorChain};
 use nalgebra::{Complex, DMatrix};
 
 /// The difference equation of a chain in a configuration.
@@ -39,6 +45,8 @@ pub struct DifferenceEquation {
     prediction: f64,
     /// Whether the first force already sees `w_0`.
     lagging: bool,
+    /// Whether `f` is the slider force half a step before the positions, and the force its mean over the step.
+    averages: bool,
 }
 
 impl DifferenceEquation {
@@ -47,7 +55,7 @@ impl DifferenceEquation {
         let n = configuration.substeps as f64;
         let early = 0.5 * step / n;
         let (stagger, prediction) = match configuration.scheme {
-            Scheme::SecondOrder => (early, early),
+            Scheme::SecondOrder | Scheme::AveragedFriction => (early, early),
             Scheme::LaggingDamping => (early, 0.0),
             Scheme::Plain => (0.0, 0.0),
         };
@@ -63,6 +71,7 @@ impl DifferenceEquation {
             stagger,
             prediction,
             lagging: configuration.scheme == Scheme::LaggingDamping,
+            averages: configuration.scheme == Scheme::AveragedFriction,
         }
     }
 
@@ -75,6 +84,10 @@ impl DifferenceEquation {
         if self.lagging {
             a = self.acceleration(&x, &w, &f);
         }
+        if self.averages {
+            f = self.half_a_step_before(&w, &f, &a);
+            a = self.acceleration_after(&x, &w, &f, &a);
+        }
         let mut samples = vec![bare_sample(0.0, initial.clone())];
         for i in 1..=steps {
             a = self.advance(&mut x, &mut w, &mut f, &a);
@@ -84,8 +97,8 @@ impl DifferenceEquation {
                 return Trajectory { samples, events: Vec::new(), outcome };
             }
             if i % stride == 0 {
-                let velocities = self.recorded(&w, &a);
-                samples.push(bare_sample(time, State { positions: x.clone(), velocities, slider_forces: f.clone() }));
+                let (velocities, slider_forces) = (self.recorded(&w, &a), self.recorded_sliders(&w, &f, &a));
+                samples.push(bare_sample(time, State { positions: x.clone(), velocities, slider_forces }));
             }
         }
         Trajectory { samples, events: Vec::new(), outcome: Outcome::Completed }
@@ -94,24 +107,64 @@ impl DifferenceEquation {
     /// One step under the acceleration `a`; returns the next one.
     pub(super) fn advance(&self, x: &mut [f64], w: &mut [f64], f: &mut [f64], a: &[f64]) -> Vec<f64> {
         let h = self.step;
-        let elongations = |x: &[f64]| -> Vec<f64> {
-            self.chain.jenkins().iter().map(|element| element.attachment.elongation(x)).collect()
-        };
-        let old = elongations(x);
+        let elongation = |j: usize, x: &[f64]| self.chain.jenkins()[j].attachment.elongation(x);
+        let old: Vec<f64> = (0..f.len()).map(|j| elongation(j, x)).collect();
+        if self.averages {
+            self.drag(f, w, a, h);
+        }
         for j in 0..x.len() {
             x[j] += h * w[j] + self.lift * h * h * a[j];
             w[j] += h * a[j];
         }
-        for (((element, force), new), old) in self.chain.jenkins().iter().zip(f.iter_mut()).zip(elongations(x)).zip(old)
-        {
-            *force = (*force + element.normalised_stiffness() * (new - old)).clamp(-1.0, 1.0);
+        if !self.averages {
+            for (j, (force, old)) in f.iter_mut().zip(old).enumerate() {
+                let stiffness = self.chain.jenkins()[j].normalised_stiffness();
+                *force = (*force + stiffness * (elongation(j, x) - old)).clamp(-1.0, 1.0);
+            }
         }
         self.acceleration_after(x, w, f, a)
+    }
+
+    /// Slider forces along velocities `w + a t`, `0 < t < time`; returns their means.
+    fn drag(&self, f: &mut [f64], w: &[f64], a: &[f64], time: f64) -> Vec<f64> {
+        let one = |(element, f): (&JenkinsElement, &mut f64)| {
+            let of = |values: &[f64]| element.normalised_stiffness() * element.attachment.elongation(values);
+            let (end, mean) = dragged(*f, of(w), of(a), time);
+            *f = end;
+            mean
+        };
+        self.chain.jenkins().iter().zip(f).map(one).collect()
+    }
+
+    /// Sticking sliders are moved back by the elongation gained in half a step.
+    fn half_a_step_before(&self, w: &[f64], f: &[f64], a: &[f64]) -> Vec<f64> {
+        let half = 0.5 * self.step;
+        let moved = |v: &[f64], j: usize| {
+            self.chain.jenkins()[j].normalised_stiffness() * self.chain.jenkins()[j].attachment.elongation(v)
+        };
+        let before = |(j, f): (usize, &f64)| match f.abs() < 1.0 {
+            true => (f - half * moved(w, j) - 0.5 * half * half * moved(a, j)).clamp(-1.0, 1.0),
+            false => *f,
+        };
+        f.iter().enumerate().map(before).collect()
+    }
+
+    /// At the time of the positions.
+    fn recorded_sliders(&self, w: &[f64], f: &[f64], a: &[f64]) -> Vec<f64> {
+        let mut f = f.to_vec();
+        if self.averages {
+            self.drag(&mut f, w, a, 0.5 * self.step);
+        }
+        f
     }
 
     /// Where the step before was made under the acceleration `past`.
     pub(super) fn acceleration_after(&self, x: &[f64], w: &[f64], f: &[f64], past: &[f64]) -> Vec<f64> {
         let told: Vec<f64> = w.iter().zip(past).map(|(w, a)| w + self.prediction * a).collect();
+        if self.averages {
+            let means = self.drag(&mut f.to_vec(), w, past, self.step);
+            return self.acceleration(x, &told, &means);
+        }
         self.acceleration(x, &told, f)
     }
 
@@ -163,6 +216,30 @@ impl DifferenceEquation {
         modes.sort_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency));
         modes
     }
+}
+
+/// The stop operator `f -> clamp(f + u)` along `u = r t + b t^2/2`: its value at the end, and its mean. The integral is that of `f + u`, less the
+/// area by which it exceeds the limit, after the time at which it gets there.
+fn dragged(f: f64, r: f64, b: f64, time: f64) -> (f64, f64) {
+    let turn = -r / b;
+    if turn > 0.0 && turn < time {
+        let (middle, first) = dragged(f, r, b, turn);
+        // From rest: the rate at the turning point is zero, and never negative zero over b.
+        let (end, second) = dragged(middle, 0.0, b, time - turn);
+        return (end, (first * turn + second * (time - turn)) / time);
+    }
+    let u = |t: f64| r * t + b * t * t / 2.0;
+    let area = |t: f64| f * t + r * t * t / 2.0 + b * t * t * t / 6.0;
+    let beyond = (f + u(time)).abs() - 1.0;
+    if beyond <= 0.0 {
+        return (f + u(time), area(time) / time);
+    }
+    let limit = (f + u(time)).signum();
+    // Backwards from the end, where the rate v is not zero: u(time) - u(time - s) = v s - b s^2/2 = the excess.
+    let (v, excess) = (limit * (r + b * time), beyond);
+    let s = (2.0 * excess / (v + (v * v - 2.0 * limit * b * excess).max(0.0).sqrt())).min(time);
+    let over = excess * s - v * s * s / 2.0 + limit * b * s * s * s / 6.0;
+    (limit, (area(time) - limit * over) / time)
 }
 
 /// A sample of which only time and state are known.

@@ -53,7 +53,9 @@ fn changes(element: &JenkinsElement, index: usize, from: &Instant, to: &Instant)
 /// Did the return mapping cut the force off, so that an element sticking at both ends slipped in between?
 fn slid_within(element: &JenkinsElement, index: usize, from: &Instant, to: &Instant) -> bool {
     let (du, _) = elongation(element, from, to);
-    (from.state.slider_forces[index] + element.normalised_stiffness() * du).abs() > 1.0
+    let cut_off = (from.state.slider_forces[index] + element.normalised_stiffness() * du).abs() > 1.0;
+    // A force that is averaged over steps may fall short of the sum by a rounding of higher order, without any slip.
+    cut_off && to.state.slider_forces[index].abs() >= 1.0
 }
 
 fn slip_fraction(element: &JenkinsElement, index: usize, from: &Instant, to: &Instant) -> f64 {

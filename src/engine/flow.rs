@@ -8,9 +8,10 @@ use super::plant::{self, Blueprint, Carriages, Plant};
 use super::recorder::{Poses, Recorder, Recording};
 use super::settings::{EngineSettings, Scheme};
 use super::step_map::DiscreteState;
+use super::step_path::StepPath;
 use super::{EngineError, EngineInfo};
 use crate::dynamics::{Flow, Outcome, Sampling, State, Trajectory};
-use crate::model::{OscillatorChain, Range};
+use crate::model::{JenkinsElement, OscillatorChain, Range};
 use std::sync::Arc;
 
 /// Beyond this |x| a motion counts as diverged, unless told otherwise.
@@ -111,6 +112,12 @@ impl EngineFlow {
         }
     }
 
+    fn drag_sliders(&self, path: &StepPath<'_>, slider_forces: &mut [f64], means: &mut [f64]) {
+        for law in &self.laws {
+            law.drag_sliders(path, slider_forces, means);
+        }
+    }
+
     fn run(&self, initial: &State, sampling: Sampling, poses: Poses) -> Result<Recording, EngineError> {
         let steps = steps_for(sampling, self.settings.step)?;
         let start = initial.clone().validated(&self.chain)?;
@@ -163,6 +170,9 @@ pub(super) struct Run<'a> {
     /// The engine's velocities `w` and what the force laws are told, see [`Scheme`].
     pub(super) engine_velocities: Vec<f64>,
     known_velocities: Vec<f64>,
+    /// Where friction is averaged: slider forces at the time of `engine_velocities`, those a step before, and their means over the step.
+    sliders: [Vec<f64>; 2],
+    mean_sliders: Vec<f64>,
 }
 
 impl<'a> Run<'a> {
@@ -176,6 +186,7 @@ impl<'a> Run<'a> {
         let acceleration: Vec<f64> = force.iter().zip(flow.chain.mass().iter()).map(|(f, m)| f / m).collect();
         let stagger = flow.settings.stagger();
         let engine_velocities: Vec<f64> = velocities.iter().zip(&acceleration).map(|(v, a)| v - stagger * a).collect();
+        let sliders = sliders_before(flow, &now.state.slider_forces, &engine_velocities, &acceleration);
         let plant = build(flow, &now.state.positions, &engine_velocities)?;
         let mut run = Self {
             flow,
@@ -187,7 +198,14 @@ impl<'a> Run<'a> {
             acceleration,
             engine_velocities,
             known_velocities: velocities,
+            mean_sliders: sliders.clone(),
+            sliders: [sliders.clone(), sliders],
         };
+        if flow.settings.averages_friction() {
+            run.see_forces()?;
+            // What is recorded at the start is what was given.
+            run.now = run.before.clone();
+        }
         if flow.settings.scheme == Scheme::LaggingDamping {
             // No better velocity is known to this scheme than the engine's, from the first step on.
             evaluate(flow, &run.now, &run.engine_velocities, &mut run.force)?;
@@ -209,9 +227,12 @@ impl<'a> Run<'a> {
         let zeros = vec![0.0; flow.chain.oscillators()];
         let mut past_acceleration = zeros.clone();
         past_acceleration[..from.past_accelerations.len()].copy_from_slice(&from.past_accelerations);
+        let sliders = from.slider_forces.clone();
         let mut run = Self {
             flow,
             plant: build(flow, &now.state.positions, &engine_velocities)?,
+            mean_sliders: sliders.clone(),
+            sliders: [sliders.clone(), sliders],
             before: now.clone(),
             now,
             force: zeros.clone(),
@@ -232,9 +253,15 @@ impl<'a> Run<'a> {
         std::mem::swap(&mut self.before, &mut self.now);
         self.now.time = time;
         self.plant.read_positions(&mut self.now.state.positions);
+        if settings.averages_friction() {
+            // With the velocities at the beginning of the step, which are read anew below.
+            self.carry_sliders();
+        }
         self.plant.read_velocities(&mut self.engine_velocities);
         self.check_finite()?;
-        self.flow.move_sliders(&self.before.state, &mut self.now.state);
+        if !settings.averages_friction() {
+            self.flow.move_sliders(&self.before.state, &mut self.now.state);
+        }
         std::mem::swap(&mut self.past_acceleration, &mut self.acceleration);
         self.see_forces()
     }
@@ -247,18 +274,59 @@ impl<'a> Run<'a> {
         for (i, known) in self.known_velocities.iter_mut().enumerate() {
             *known = self.engine_velocities[i] + prediction * self.past_acceleration[i];
         }
+        let averages = settings.averages_friction();
+        if averages {
+            self.average_sliders();
+        }
         evaluate(self.flow, &self.now, &self.known_velocities, &mut self.force)?;
         for (i, mass) in self.flow.chain.mass().iter().enumerate() {
             self.acceleration[i] = self.force[i] / mass;
             self.now.state.velocities[i] = self.engine_velocities[i] + stagger * self.acceleration[i];
         }
+        if averages {
+            self.record_sliders();
+        }
         self.now.find_contacts(&self.flow.chain);
         Ok(())
     }
 
+    /// Puts the means of the friction forces over the predicted step in the place of the slider forces, for the force laws to see.
+    fn average_sliders(&mut self) {
+        self.mean_sliders.copy_from_slice(&self.sliders[1]);
+        let mut end = self.sliders[1].clone();
+        let (velocities, duration) = (&self.engine_velocities, self.flow.settings.step);
+        let path = StepPath { velocities, accelerations: &self.past_acceleration, duration };
+        self.flow.drag_sliders(&path, &mut end, &mut self.mean_sliders);
+        self.now.state.slider_forces.copy_from_slice(&self.mean_sliders);
+    }
+
+    /// Puts the slider forces in the middle of the step in the place of their means.
+    fn record_sliders(&mut self) {
+        self.now.state.slider_forces.copy_from_slice(&self.sliders[1]);
+        let duration = 0.5 * self.flow.settings.step;
+        let path = StepPath { velocities: &self.engine_velocities, accelerations: &self.acceleration, duration };
+        self.flow.drag_sliders(&path, &mut self.now.state.slider_forces, &mut self.mean_sliders);
+    }
+
+    /// Moves the sliders along the step that was made.
+    fn carry_sliders(&mut self) {
+        let [before, now] = &mut self.sliders;
+        before.copy_from_slice(now);
+        let (velocities, duration) = (&self.engine_velocities, self.flow.settings.step);
+        let path = StepPath { velocities, accelerations: &self.acceleration, duration };
+        self.flow.drag_sliders(&path, now, &mut self.mean_sliders);
+    }
+
+    /// The slider forces that the coming steps depend on.
+    pub(super) fn carried_sliders(&self) -> &[f64] {
+        if self.flow.settings.averages_friction() { &self.sliders[1] } else { &self.now.state.slider_forces }
+    }
+
     /// Whether an element reached or left its limit in the last step.
     pub(super) fn slider_switched(&self) -> bool {
-        let forces = self.before.state.slider_forces.iter().zip(&self.now.state.slider_forces);
+        let averages = self.flow.settings.averages_friction();
+        let before = if averages { &self.sliders[0] } else { &self.before.state.slider_forces };
+        let forces = before.iter().zip(self.carried_sliders());
         forces.into_iter().any(|(before, now)| (before.abs() >= 1.0) != (now.abs() >= 1.0))
     }
 
@@ -275,6 +343,16 @@ impl<'a> Run<'a> {
     pub(super) fn largest_amplitude(&self) -> f64 {
         self.now.state.positions.iter().fold(0.0, |largest, x| largest.max(x.abs()))
     }
+}
+
+/// Slider forces half a step before the start: those that stick there have come from where the path led them.
+fn sliders_before(flow: &EngineFlow, forces: &[f64], velocities: &[f64], accelerations: &[f64]) -> Vec<f64> {
+    let path = StepPath { velocities, accelerations, duration: 0.5 * flow.settings.step };
+    let before = |(element, &f): (&JenkinsElement, &f64)| {
+        let moved = element.normalised_stiffness() * path.elongation(element.attachment);
+        if f.abs() < 1.0 { (f - moved).clamp(-1.0, 1.0) } else { f }
+    };
+    flow.chain.jenkins().iter().zip(forces).map(before).collect()
 }
 
 fn build(flow: &EngineFlow, positions: &[f64], velocities: &[f64]) -> Result<Box<dyn Plant>, EngineError> {

@@ -9,6 +9,7 @@
 //!
 //! Matrices may be non-symmetric. Laws have no memory: the slider forces f are part of the rig's state and handed to them.
 
+use super::step_path::{Along, StepPath, along};
 use crate::model::{Attachment, JenkinsElement, OscillatorChain, ParameterError};
 use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
 use std::fmt::Debug;
@@ -41,6 +42,9 @@ pub trait ForceLaw: Debug + Send + Sync {
 
     /// Moves the sliders on after the carriages went `from` one sampled position `to` the next. Laws without friction have none.
     fn move_sliders(&self, _from: &[f64], _to: &[f64], _slider_forces: &mut [f64]) {}
+
+    /// Moves the sliders on along a path, and sets the means of their forces over it. For [`super::Scheme::AveragedFriction`].
+    fn drag_sliders(&self, _path: &StepPath<'_>, _slider_forces: &mut [f64], _means: &mut [f64]) {}
 }
 
 /// Springs to ground and between carriages, and any other linear force of position: `-K x`.
@@ -127,6 +131,13 @@ impl ForceLaw for JenkinsElements {
         for (element, f) in self.0.iter().zip(slider_forces) {
             let du = element.attachment.elongation(to) - element.attachment.elongation(from);
             *f = return_mapping(element, *f, du);
+        }
+    }
+
+    fn drag_sliders(&self, path: &StepPath<'_>, slider_forces: &mut [f64], means: &mut [f64]) {
+        for ((element, f), mean) in self.0.iter().zip(slider_forces).zip(means) {
+            let Along { end, mean: over_path } = along(element, *f, path);
+            (*f, *mean) = (end, over_path);
         }
     }
 }

@@ -40,6 +40,7 @@ mod settings;
 #[expect(clippy::duplicate_mod, reason = "one source for both precisions; see world.rs")]
 mod single;
 mod step_map;
+mod step_path;
 mod work;
 
 pub use disk::{BladeMotion, DiskArrival, DiskFlow, DiskGeometry};
@@ -54,3 +55,4 @@ pub use prescribed::PrescribedFlow;
 pub use recorder::Recording;
 pub use settings::{EngineSettings, Joints, Precision, Scheme};
 pub use step_map::{DiscreteState, Stepped};
+pub use step_path::StepPath;

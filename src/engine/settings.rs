@@ -68,6 +68,10 @@ impl Joints {
 pub enum Scheme {
     /// Start with `w_0 = v_0 - s a_0`; forces see `w_n + s a_(n-1)`; recorded velocity `w_n + s a_n`. Second order for one substep.
     SecondOrder,
+    /// As `SecondOrder`, with the friction force averaged over the step along its predicted path (see [`super::StepPath`]) instead of sampled at
+    /// `t_n`: the derivative of the motion is of second order too (measured: secondary Hopf point at 2048 steps within 1.3e-8, sampled
+    /// 1.5e-6).
+    AveragedFriction,
     /// As `SecondOrder`, but forces see `w_n`, half a step late: first order wherever there is damping.
     LaggingDamping,
     /// `w` is taken for the velocity, as a plain user of the engine does: first order.
@@ -75,11 +79,12 @@ pub enum Scheme {
 }
 
 impl Scheme {
-    /// `second_order`, `lagging_damping` or `plain`.
+    /// `second_order`, `averaged_friction`, `lagging_damping` or `plain`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Self::SecondOrder => "second_order",
+            Self::AveragedFriction => "averaged_friction",
             Self::LaggingDamping => "lagging_damping",
             Self::Plain => "plain",
         }
@@ -131,13 +136,19 @@ impl EngineSettings {
     /// Whether forces depend on the acceleration of the step before: only where the scheme predicts velocities with it.
     #[must_use]
     pub fn remembers_acceleration(&self) -> bool {
-        self.scheme == Scheme::SecondOrder
+        matches!(self.scheme, Scheme::SecondOrder | Scheme::AveragedFriction)
+    }
+
+    pub(super) fn averages_friction(&self) -> bool {
+        self.scheme == Scheme::AveragedFriction
     }
 
     /// `s` of [`Scheme`]: how long before the positions the engine's velocities are taken to be.
     pub(super) fn stagger(&self) -> f64 {
         match self.scheme {
-            Scheme::SecondOrder | Scheme::LaggingDamping => self.step / (2.0 * self.substeps as f64),
+            Scheme::SecondOrder | Scheme::AveragedFriction | Scheme::LaggingDamping => {
+                self.step / (2.0 * self.substeps as f64)
+            }
             Scheme::Plain => 0.0,
         }
     }

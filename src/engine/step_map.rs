@@ -20,7 +20,7 @@ pub struct DiscreteState {
     pub positions: Vec<f64>,
     /// The engine's own velocities w, length N; see [`super::Scheme`] for their time.
     pub engine_velocities: Vec<f64>,
-    /// Normalised slider forces, one per Jenkins element, |f| <= 1.
+    /// Normalised slider forces, one per Jenkins element, |f| <= 1; those at the time of w where friction is averaged.
     pub slider_forces: Vec<f64>,
     /// Accelerations in the step that led here: length N, or empty if the scheme remembers none
     /// ([`super::EngineSettings::remembers_acceleration`]).
@@ -89,7 +89,7 @@ impl EngineFlow {
         DiscreteState {
             positions: run.now.state.positions.clone(),
             engine_velocities: run.engine_velocities.clone(),
-            slider_forces: run.now.state.slider_forces.clone(),
+            slider_forces: run.carried_sliders().to_vec(),
             past_accelerations: if remembered { run.past_acceleration.clone() } else { Vec::new() },
         }
     }

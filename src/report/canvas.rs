@@ -132,6 +132,9 @@ impl<B: DrawingBackend> Canvas<'_, B> {
     }
 
     pub fn text(&mut self, at: Point, text: &str, look: Lettering) -> Result<(), Failure> {
+        if text.is_empty() {
+            return Ok(());
+        }
         let size = look.size * self.scale * self.medium.line_height();
         let weight = if look.bold { FontStyle::Bold } else { FontStyle::Normal };
         let turn = if look.upwards { FontTransform::Rotate270 } else { FontTransform::None };

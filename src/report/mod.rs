@@ -11,13 +11,16 @@ mod figure;
 mod frame;
 mod legend;
 mod marks;
+mod packed;
 mod page;
 mod picture;
 mod series;
+mod slim;
 mod ticks;
 
 pub use chart::Chart;
 pub use error::ReportError;
 pub use figure::{Axis, Figure, Mark, Panel, Scale, Side};
+pub use packed::TablePack;
 pub use page::{Cell, Page, SortableTable, image, verdict_mark};
 pub use series::{Series, Style, Tint};

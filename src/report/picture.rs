@@ -4,6 +4,7 @@ use super::canvas::{Canvas, FONT, Medium};
 use super::draw::draw;
 use super::error::ReportError;
 use super::figure::Figure;
+use super::slim::slim;
 use crate::store::write_atomically;
 use plotters::prelude::{BitMapBackend, SVGBackend};
 use plotters::style::{FontStyle, register_font};
@@ -45,7 +46,7 @@ impl Figure {
         // The view box keeps the fine units, the picture has its size in CSS pixels.
         let fine = format!("width=\"{width}\" height=\"{height}\" viewBox");
         let shown = format!("width=\"{}\" height=\"{}\" viewBox", self.size.0, self.size.1);
-        Ok(text.replacen(&fine, &shown, 1))
+        Ok(slim(&text.replacen(&fine, &shown, 1)))
     }
 
     /// The picture as the bytes of a PNG file.

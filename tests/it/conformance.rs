@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip::conformance::{
-    Archive, Case, Changes, Configuration, ConformanceError, Depth, Fewest, Physics, Rapier, Report, Row, Scenario,
-    Verdict, compute, html, markdown, registry, scenario_named,
+    Archive, Baseline, Case, Changes, Configuration, ConformanceError, Depth, Fewest, Physics, Rapier, Report, Row,
+    Scenario, Verdict, compute, html, markdown, registry, scenario_named,
 };
 use stickslip::engine::{Joints, Precision, Scheme};
 use stickslip::store::{Existing, Origin, OutputDir};
@@ -235,6 +235,19 @@ fn the_page_is_whole_in_itself_and_leads_with_the_answer() {
 }
 
 #[test]
+fn the_page_is_readable_at_every_width_light_and_dark_with_all_tables_open() {
+    let page = html(&small_report(Depth::Full), None).unwrap();
+    let opened = page.replace("<details class=\"packed\">", "<details class=\"packed\" open>");
+    assert!(opened.len() > page.len(), "there are packed tables");
+    let complaint = r#"<script>if (document.querySelectorAll("details tbody tr").length < 10) console.error("rows are missing")</script>"#;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("report.html");
+    std::fs::write(&path, opened + complaint).unwrap();
+    let Some(seen) = super::browser::look_at(&path) else { return };
+    assert_eq!(super::browser::faults(&seen), Vec::<String>::new());
+}
+
+#[test]
 fn the_committed_schema_is_fresh_and_accepts_a_report() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/conformance.schema.json");
     let committed: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
@@ -252,21 +265,82 @@ fn the_committed_schema_is_fresh_and_accepts_a_report() {
 #[test]
 fn a_report_that_got_worse_is_noticed() {
     let old = small_report(Depth::Full);
-    assert!(Changes::between(&old, &old).acceptable());
+    let between = |old: &Report, new: &Report| Changes::between(&Baseline::of(old), &Baseline::of(new));
+    assert!(between(&old, &old).acceptable());
     let mut new = old.clone();
     let i = new.rows.iter().position(|row| row.physics == Physics::Right).unwrap();
     new.rows[i].physics = Physics::Wrong;
     new.rows[i].found = Some(10.0);
     new.rows[i].trajectory = Some("other".to_owned());
-    new.rows.pop();
-    let changes = Changes::between(&old, &new);
+    let gone = new.rows.pop().unwrap();
+    let changes = between(&old, &new);
     assert!(!changes.acceptable());
     assert_eq!(
-        (changes.worse.len(), changes.gone.len(), changes.other_trajectories, changes.better.len()),
-        (1, 1, 1, 0)
+        (changes.worse.len(), changes.other_trajectories, changes.better.len(), &changes.gone),
+        (1, 1, 0, &vec![gone.identity()])
     );
-    let back = Changes::between(&new, &old);
-    assert_eq!((back.worse.len(), back.better.len(), back.added), (0, 1, 1));
+    let back = between(&new, &old);
+    assert_eq!((back.worse.len(), back.better.len(), &back.added), (0, 1, &vec![gone.identity()]));
+    assert!(back.acceptable(), "a new row that passed is told only");
+    let page = html(&new, Some(&changes)).unwrap();
+    assert!(
+        page.contains("Something got worse")
+            && page.contains(&gone.quantity)
+            && markdown(&new, Some(&changes)).contains("gone")
+    );
+}
+
+#[test]
+fn a_known_failure_passes_and_a_new_one_does_not() {
+    let mut old = small_report(Depth::Full);
+    let mut new = old.clone();
+    let mut failed = old.rows[0].clone();
+    failed.verdict = Verdict::Failed;
+    failed.quantity = "something new".to_owned();
+    new.rows.push(failed.clone());
+    let changes = Changes::between(&Baseline::of(&old), &Baseline::of(&new));
+    assert_eq!((changes.acceptable(), &changes.added_failed), (false, &vec![failed.identity()]));
+    old.rows.push(failed);
+    assert!(Changes::between(&Baseline::of(&old), &Baseline::of(&new)).acceptable());
+}
+
+#[test]
+fn a_baseline_holds_what_is_compared_and_its_file_is_read_back() {
+    let report = small_report(Depth::Quick);
+    let baseline = Baseline::of(&report);
+    let names: Vec<String> = baseline.named_rows().map(|(name, _)| name).collect();
+    for row in &report.rows {
+        let beyond = row.verdict == Verdict::NotRun && row.quantity == "all quantities";
+        assert_eq!(names.contains(&row.identity()), !beyond, "{}", row.identity());
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("baseline.json");
+    std::fs::write(&path, baseline.text()).unwrap();
+    let read = Baseline::read(&path).unwrap();
+    assert_eq!(read.text(), baseline.text());
+    // Nine digits are kept, and no hashes: neither is a change.
+    let changes = Changes::between(&read, &baseline);
+    assert!(changes.acceptable() && changes.moved.is_empty() && changes.common == names.len(), "{changes:?}");
+    std::fs::write(&path, serde_json::to_string(&report).unwrap()).unwrap();
+    assert!(Changes::between(&Baseline::read(&path).unwrap(), &baseline).acceptable(), "a report.json does as well");
+    std::fs::write(&path, "{}").unwrap();
+    assert!(Baseline::read(&path).unwrap_err().to_string().contains("neither"));
+}
+
+/// What CI compares with must be of this engine and have its rows: a baseline without rows would accept everything.
+#[test]
+fn the_committed_baseline_is_of_this_engine_and_has_rows_of_every_scenario() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/conformance-baseline.json");
+    let baseline = Baseline::read(std::path::Path::new(path)).unwrap();
+    let renew = "renew it: stickslip conformance --quick --write-baseline assets/conformance-baseline.json";
+    assert_eq!(baseline.parameters.depth, Depth::Quick);
+    assert_eq!(baseline.engines, Report::new(&[], Depth::Quick, Vec::new(), None).engines, "{renew}");
+    for scenario in registry() {
+        let of = |(name, row): &(String, &stickslip::conformance::Known)| {
+            name.starts_with(&format!("{} |", scenario.id())) && row.verdict == Verdict::Passed
+        };
+        assert!(baseline.named_rows().any(|row| of(&row)), "{}: {renew}", scenario.id());
+    }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `report.md`: the answer, the tables, the failures; charts are in the page.
 
-use super::answer::{FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, answer};
+use super::advice::{self, FEWEST_CAPTION};
+use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, STEPS, WHY, answer, best};
 use super::tables::{self, Grid};
 use crate::conformance::{Changes, Report, Row};
 use std::fmt::Write;
@@ -24,19 +25,36 @@ pub fn markdown(report: &Report, changes: Option<&Changes>) -> String {
         say(&grid(&tables::changes(changes)));
     }
     say("## Fewest steps per period for 1 %");
-    say(&grid(&tables::advice(report)));
+    say(&grid(&advice::fewest_steps(report)));
+    say(FEWEST_CAPTION);
+    say(STEPS);
+    say("## Why this, and not its neighbours");
+    WHY.iter().for_each(|line| say(line));
+    if let Some((_, steps)) = best(report) {
+        say(&format!("Errors at {steps} steps per period, in per cent of the quantity or of the size of the motion:"));
+        say(&grid(&advice::comparison(report, steps)));
+    }
+    say("## Whose fault is what");
+    for [error, whose, size, help] in FAULTS {
+        say(&format!("- {error}: {whose}; {size}. Helps: {help}."));
+    }
     say("## How to read this");
     HOW_TO_READ.iter().for_each(|line| say(line));
     say(RECIPE);
     say(MULTIBODY);
     say("## Numerical damping at dt = 1/60");
     say(FORMULA);
+    say(DERIVATION);
     let damping = |row: &&Row| row.quantity == "numerical_damping" && row.steps_per_period == Some(377);
     say(&grid(&tables::damping(&report.rows.iter().filter(damping).collect::<Vec<_>>())));
     for note in &report.scenarios {
         say(&format!("## {}", note.title));
         say(&note.description);
         say(&format!("Reference: {}.", note.reference));
+        let hopf = advice::hopf(report);
+        if note.id == "secondary_hopf" && !hopf.rows.is_empty() {
+            say(&grid(&hopf));
+        }
         let orders =
             |row: &&Row| row.scenario == note.id && row.expected_order.is_some() && row.steps_per_period.is_none();
         let rows: Vec<&Row> = report.rows.iter().filter(orders).collect();
@@ -70,23 +88,29 @@ pub(super) fn provenance(report: &Report) -> Vec<String> {
     lines
 }
 
-/// One sentence about the changes.
+/// What was compared, and what came of it.
 pub(super) fn summary(changes: &Changes) -> String {
+    let Changes { worse, gone, added_failed, better, moved, other_reasons, added, .. } = changes;
+    let engines = if changes.engines.is_empty() {
+        String::new()
+    } else {
+        format!(" The older run was made with {}.", changes.engines.join(", "))
+    };
+    let verdict = if changes.acceptable() { "Nothing got worse" } else { "Something got worse" };
     format!(
-        "Against the older report: {} rows worse, {} better, {} numbers moved beyond their tolerance, {} rows new, {} gone; {} of {} common rows have \
-         other trajectories bit for bit{}.",
-        changes.worse.len(),
-        changes.better.len(),
-        changes.moved.len(),
-        changes.added,
-        changes.gone.len(),
-        changes.other_trajectories,
+        "{verdict}: of {} rows in both runs {} are worse (by verdict, passed < not run < failed, by physics, right < not judged < wrong, or \
+         without their number) and {} better; {} rows are gone, {} are new and failed, which count as worse; {} others are new. Told only, for between \
+         processors numbers differ in rounding: {} numbers moved beyond their tolerance, {} rows without a number have another reason, {} trajectories are \
+         others bit for bit.{engines}",
         changes.common,
-        if changes.engines.is_empty() {
-            String::new()
-        } else {
-            format!("; it was made with {}", changes.engines.join(", "))
-        }
+        worse.len(),
+        better.len(),
+        gone.len(),
+        added_failed.len(),
+        added.len() - added_failed.len(),
+        moved.len(),
+        other_reasons.len(),
+        changes.other_trajectories,
     )
 }
 

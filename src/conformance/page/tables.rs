@@ -1,7 +1,7 @@
 //! Tables of the report, as texts with the numbers they are sorted by.
 
 use crate::conformance::experiment::is_notable;
-use crate::conformance::{Advice, Changes, Fewest, Physics, Report, Row, Verdict};
+use crate::conformance::{Change, Changes, Physics, Report, Row, Verdict, about, quantity_in_words};
 
 /// A cell: what is shown, and the number it stands for.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,14 +23,32 @@ pub(super) fn text(text: impl Into<String>) -> Entry {
 
 /// A number with as many digits as tell something.
 pub(super) fn number(value: Option<f64>) -> Entry {
-    let Some(value) = value else { return Entry { text: "–".to_owned(), key: Some(f64::MAX) } };
-    let size = value.abs();
-    let text = match size {
+    let Some(value) = value else { return none() };
+    let text = match value.abs() {
         0.0 => "0".to_owned(),
-        _ if !(1e-3..1e5).contains(&size) => format!("{value:.2e}"),
+        size if !(1e-3..1e5).contains(&size) => format!("{value:.2e}"),
         _ => format!("{value:.6}"),
     };
     Entry { text, key: Some(value) }
+}
+
+/// Two significant digits: what differs in later ones tells nothing.
+pub(super) fn rough(value: Option<f64>) -> Entry {
+    let Some(value) = value.filter(|value| value.is_finite()) else { return none() };
+    let text = match value.abs() {
+        0.0 => "0".to_owned(),
+        size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
+        size => {
+            let decimals = (1.0 - size.log10().floor()).max(0.0) as i32;
+            let unit = 10_f64.powi(1 - size.log10().floor() as i32);
+            format!("{:.*}", decimals as usize, (value * unit).round() / unit)
+        }
+    };
+    Entry { text, key: Some(value) }
+}
+
+fn none() -> Entry {
+    Entry { text: "–".to_owned(), key: Some(f64::MAX) }
 }
 
 pub(super) fn verdict(verdict: Verdict) -> Entry {
@@ -51,47 +69,17 @@ pub(super) fn physics(physics: Physics) -> Entry {
     Entry { text: word.to_owned(), key: Some(key) }
 }
 
-fn fewest(fewest: Fewest) -> Entry {
-    match fewest {
-        Fewest::Steps(steps) => Entry { text: steps.to_string(), key: Some(f64::from(steps)) },
-        Fewest::Never => Entry { text: "none of those run".to_owned(), key: Some(1e8) },
-        Fewest::NotRun => Entry { text: "not run".to_owned(), key: Some(1e9) },
-    }
-}
-
-/// Fewest steps per period for 1 %, and what an oscillation then costs.
-pub(super) fn advice(report: &Report) -> Grid {
-    let row = |advice: &Advice| {
-        let Advice { configuration, amplitude, frequency, hopf, all } = *advice;
-        let needed = match (all, worse_of(amplitude, frequency)) {
-            (Fewest::Steps(steps), _) | (Fewest::NotRun, Fewest::Steps(steps)) => Some(steps),
-            _ => None,
-        };
-        let cost = needed.zip(report.cost(configuration)).map(|(steps, cost)| f64::from(steps) * cost);
-        let cost = cost.map_or(number(None), |cost| Entry { text: format!("{cost:.0}"), key: Some(cost) });
-        vec![text(configuration.label()), fewest(amplitude), fewest(frequency), fewest(hopf), cost]
-    };
-    Grid {
-        headings: vec!["configuration", "amplitude", "frequency", "Hopf point", "µs per oscillation"],
-        rows: report.advice.iter().map(row).collect(),
-    }
-}
-
-fn worse_of(a: Fewest, b: Fewest) -> Fewest {
-    match (a, b) {
-        (Fewest::Steps(a), Fewest::Steps(b)) => Fewest::Steps(a.max(b)),
-        _ => Fewest::Never,
-    }
+fn variant(row: &Row) -> Entry {
+    text(if row.variant.is_empty() { "–" } else { row.variant.as_str() })
 }
 
 /// Numerical damping beside its formula.
 pub(super) fn damping(rows: &[&Row]) -> Grid {
     let row = |row: &&Row| {
         let ratio = row.found.zip(row.expected).filter(|(_, e)| *e != 0.0).map(|(f, e)| f / e);
-        let steps = Entry { text: steps(row), key: row.steps_per_period.map(f64::from) };
         vec![
             text(row.configuration.label()),
-            steps,
+            steps(row),
             number(row.dt),
             number(row.expected),
             number(row.found),
@@ -119,17 +107,19 @@ pub(super) fn damping(rows: &[&Row]) -> Grid {
 pub(super) fn orders(rows: &[&Row]) -> Grid {
     let row = |row: &&Row| {
         vec![
-            text(row.quantity.replace('_', " ")),
+            variant(row),
+            text(quantity_in_words(&row.quantity)),
             text(row.configuration.label()),
             number2(row.expected_order),
             number2(row.order),
-            number(row.floor),
+            rough(row.floor),
             verdict(row.verdict),
             text(row.reason.clone()),
         ]
     };
     Grid {
         headings: vec![
+            "variant",
             "error of",
             "configuration",
             "expected order",
@@ -146,17 +136,19 @@ pub(super) fn orders(rows: &[&Row]) -> Grid {
 pub(super) fn steps_table(rows: &[&Row]) -> Grid {
     let row = |row: &&Row| {
         vec![
-            text(row.quantity.replace('_', " ")),
+            text(quantity_in_words(&row.quantity)),
             text(row.configuration.label()),
-            Entry { text: steps(row), key: row.steps_per_period.map(f64::from) },
+            steps(row),
             number(row.expected),
             number(row.found),
-            number(row.tolerance),
+            rough(row.tolerance),
             verdict(row.verdict),
             number(row.exact),
-            number(row.deviation),
+            rough(row.deviation),
+            rough(row.limit),
             physics(row.physics),
             number2(row.order),
+            text(row.reason.clone()),
         ]
     };
     Grid {
@@ -169,9 +161,11 @@ pub(super) fn steps_table(rows: &[&Row]) -> Grid {
             "tolerance",
             "as predicted",
             "exact",
-            "deviation",
+            "off by",
+            "1 % limit",
             "physics",
             "local order",
+            "how judged",
         ],
         rows: rows.iter().map(row).collect(),
     }
@@ -181,28 +175,44 @@ pub(super) fn steps_table(rows: &[&Row]) -> Grid {
 pub(super) fn failures(report: &Report) -> Grid {
     let failed = report.rows.iter().filter(|row| row.verdict == Verdict::Failed);
     let row = |row: &Row| {
+        let off = row.found.zip(row.expected).map(|(found, expected)| (found - expected).abs());
         vec![
-            text(row.identity()),
-            number(row.expected),
+            text(about(row)),
             number(row.found),
-            number(row.tolerance),
+            number(row.expected),
+            rough(off),
+            rough(row.tolerance),
             text(row.reason.clone()),
         ]
     };
-    Grid { headings: vec!["row", "predicted", "found", "tolerance", "how judged"], rows: failed.map(row).collect() }
+    Grid {
+        headings: vec!["what", "found", "predicted", "off by", "allowed", "how judged, or why there is no number"],
+        rows: failed.map(row).collect(),
+    }
 }
 
-/// What changed since an older report.
+/// What changed since an older run.
 pub(super) fn changes(changes: &Changes) -> Grid {
-    let kinds = [("worse", &changes.worse), ("better", &changes.better), ("moved", &changes.moved)];
-    let of = |(word, list): (&str, &Vec<crate::conformance::Change>)| {
-        let word = word.to_owned();
-        let row = move |change: &crate::conformance::Change| {
-            vec![text(word.clone()), text(change.row.clone()), number(change.old), number(change.new)]
-        };
-        list.iter().map(row).collect::<Vec<_>>()
+    let in_both = [
+        ("worse", &changes.worse),
+        ("better", &changes.better),
+        ("moved", &changes.moved),
+        ("other reason", &changes.other_reasons),
+    ];
+    let of = |(word, list): (&'static str, &Vec<Change>)| {
+        list.iter().map(|change| [word.to_owned(), change.row.clone(), change.in_words()]).collect::<Vec<_>>()
     };
-    Grid { headings: vec!["change", "row", "old", "new"], rows: kinds.into_iter().flat_map(of).collect() }
+    let alone = |word: &'static str, list: &[String]| {
+        list.iter().map(|row| [word.to_owned(), row.clone(), String::new()]).collect::<Vec<_>>()
+    };
+    let new: Vec<String> = changes.added.iter().filter(|row| !changes.added_failed.contains(row)).cloned().collect();
+    let rows = in_both
+        .into_iter()
+        .flat_map(of)
+        .chain(alone("gone", &changes.gone))
+        .chain(alone("new and failed", &changes.added_failed))
+        .chain(alone("new", &new));
+    Grid { headings: vec!["change", "row", "what"], rows: rows.map(|cells| cells.map(text).to_vec()).collect() }
 }
 
 /// Rows of a scenario and variant in configurations that tell most.
@@ -215,6 +225,20 @@ fn number2(value: Option<f64>) -> Entry {
     Entry { text: value.map_or("–".to_owned(), |value| format!("{value:.2}")), key: Some(value.unwrap_or(f64::MAX)) }
 }
 
-fn steps(row: &Row) -> String {
-    row.steps_per_period.map_or("all".to_owned(), |steps| steps.to_string())
+fn steps(row: &Row) -> Entry {
+    let text = row.steps_per_period.map_or("–".to_owned(), |steps| steps.to_string());
+    Entry { text, key: row.steps_per_period.map(f64::from) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rough_numbers_have_two_digits() {
+        let shown = |value| rough(Some(value)).text;
+        assert_eq!([1819.3, 94.96, 9.44, 0.01578].map(shown), ["1800", "95", "9.4", "0.016"]);
+        assert_eq!([1.25e-7, 2.04e6, 0.0].map(shown), ["1.2e-7", "2.0e6", "0"]);
+        assert_eq!(rough(None).text, "–");
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::near_motion::{Quantities, rows};
 use super::rig_motion::beside_the_cycle;
-use crate::conformance::experiment::hook_cases;
+use crate::conformance::experiment::friction_cases;
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::{ConformanceError, Row};
 
@@ -31,7 +31,7 @@ impl Scenario for EnergyLedger {
     }
 
     fn cases(&self, depth: Depth) -> Vec<Case> {
-        hook_cases(ID, "", depth)
+        friction_cases(ID, "", depth)
     }
 
     fn run(&self, case: &Case, bench: &dyn Bench) -> Result<Vec<Row>, ConformanceError> {

@@ -79,7 +79,7 @@ impl FreeFlight {
         let t = sampling.t_end;
         let formula = match case.configuration.scheme {
             Scheme::Plain => push * step * t / (2.0 * case.configuration.substeps as f64),
-            Scheme::SecondOrder | Scheme::LaggingDamping => 0.0,
+            Scheme::SecondOrder | Scheme::AveragedFriction | Scheme::LaggingDamping => 0.0,
         };
         let scale = t + 0.5 * push * t * t;
         let random = rounding_floor(case.configuration, scale, t, step);

@@ -2,7 +2,7 @@
 
 use super::near_motion::{Quantities, rows};
 use crate::conformance::exchange::Setup;
-use crate::conformance::experiment::{Experiment, SAMPLES_PER_PERIOD, hook_cases};
+use crate::conformance::experiment::{Experiment, SAMPLES_PER_PERIOD, friction_cases};
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::{ConformanceError, Row};
 use crate::dynamics::State;
@@ -37,7 +37,7 @@ impl Scenario for FrictionDecay {
     }
 
     fn cases(&self, depth: Depth) -> Vec<Case> {
-        hook_cases(ID, "", depth)
+        friction_cases(ID, "", depth)
     }
 
     fn run(&self, case: &Case, bench: &dyn Bench) -> Result<Vec<Row>, ConformanceError> {

@@ -1,8 +1,9 @@
 //! Rows about a motion with friction over a few periods, beside its exact solution: state, switching times, energy.
 
-use crate::conformance::experiment::{Experiment, Measured, RIGHT, finish_ladder};
+use crate::conformance::experiment::{Experiment, RIGHT, ROUNDINGS, finish_ladder};
+use crate::conformance::ledger::energy_residual;
 use crate::conformance::scenario::{Bench, Case};
-use crate::conformance::switching::switching_error;
+use crate::conformance::switching::{Switch, slowest_rate, switches_between, switches_of, switching_error};
 use crate::conformance::{Basis, ConformanceError, Judgement, Ladder, ORDER_TOLERANCE, Row, Subject};
 use crate::dynamics::State;
 use crate::exact::ExactTrajectory;
@@ -14,9 +15,6 @@ pub(super) enum Quantities {
     Energy,
 }
 
-/// A single event or residual scatters more than a state error: where a switch falls within a step shows in it.
-const SCATTER_TOLERANCE: f64 = 2.0 * ORDER_TOLERANCE;
-
 pub(super) fn rows(
     subject: &Subject,
     case: &Case,
@@ -25,7 +23,15 @@ pub(super) fn rows(
     motion: &ExactTrajectory,
     quantities: Quantities,
 ) -> Result<Vec<Row>, ConformanceError> {
-    let (mut rows, mut states, mut others) = (Vec::new(), Ladder::new(1.0), Ladder::new(1.0));
+    let (mut rows, mut states, mut others) = (
+        Vec::new(),
+        Ladder::new(1.0),
+        match quantities {
+            Quantities::StateAndSwitching => Ladder::new(1.0),
+            // Each reversal that is missed by a part of a step leaves its own residual.
+            Quantities::Energy => Ladder::scattering(1.0),
+        },
+    );
     for &steps in &case.steps {
         let (at, step) = (subject.at(steps, experiment.period), experiment.period / f64::from(steps));
         let measured = experiment.measure(bench, case.configuration, steps)?;
@@ -41,23 +47,29 @@ pub(super) fn rows(
         match quantities {
             Quantities::StateAndSwitching => {
                 rows.push(error.row(&at, &measured, scale));
-                let found =
-                    switching_error(&experiment.chain, motion.events(), &measured.trajectory, error.expected, step);
-                let Some((found, largest)) = found else {
-                    rows.push(at.failed("switching_time", "the engine's motion has other switches than the exact one"));
+                // A switch at the very end may fall on either side of it.
+                let end = experiment.duration() - 20.0 * step.max(error.expected);
+                let (predicted, _) = experiment.step_by_step(case.configuration, steps);
+                let predicted = switches_between(&experiment.chain, &predicted);
+                let of = |switches: &[Switch]| switching_error(motion.events(), switches, end);
+                let (found, expected) = (of(&switches_of(&measured.trajectory)), of(&predicted));
+                let (Some(found), Some(expected)) = (found, expected) else {
+                    rows.push(other_switches(&at, found.is_some(), expected.is_some()));
                     continue;
                 };
-                others.push(step, found, measured.floor, None);
-                rows.push(switching_row(&at, found, largest + error.tolerance, experiment.period));
+                let rate = slowest_rate(&experiment.chain, motion.events(), end);
+                others.push(step, found, measured.floor / rate, Some(expected));
+                rows.push(switching_row(&at, [found, expected], error.tolerance / rate, experiment.period));
             }
             Quantities::Energy => {
                 let found = measured.trajectory.energy_residual();
                 others.scale = scale * scale;
-                let floor = measured.floor * scale;
-                others.push(step, found, floor, None);
-                let pumped = pumped_energy(experiment, &measured, case.configuration.substeps, step);
-                let judged = energy_row(&at, [found, pumped], experiment, step, scale, floor);
-                rows.push(judged.with_trajectory(&measured.hash));
+                let (predicted, stride) = experiment.step_by_step(case.configuration, steps);
+                let expected = energy_residual(&experiment.chain, &predicted, stride);
+                // Energies are products of two such components, one of them off by the floor of a motion of the size that is really there.
+                let floor = measured.floor * measured.scale;
+                others.push(step, found, floor, Some(expected));
+                rows.push(energy_row(&at, [found, expected], scale, floor).with_trajectory(&measured.hash));
             }
         }
     }
@@ -66,44 +78,34 @@ pub(super) fn rows(
             finish_ladder(&mut rows, subject, "state_error", &states, ORDER_TOLERANCE);
             finish_ladder(&mut rows, subject, "switching_time", &others, ORDER_TOLERANCE);
         }
-        Quantities::Energy => finish_ladder(&mut rows, subject, "energy_residual", &others, SCATTER_TOLERANCE),
+        Quantities::Energy => finish_ladder(&mut rows, subject, "energy_residual", &others, ORDER_TOLERANCE),
     }
     Ok(rows)
 }
 
-fn switching_row(at: &Subject, found: f64, tolerance: f64, period: f64) -> Row {
-    let reason = "twice the predicted state error over the rate of the event function, h² of the interpolation, and rounding; right: 1 % of a period";
-    let judgement = Judgement { basis: Basis::Exact, expected: 0.0, found, tolerance, reason: reason.to_owned() };
+/// Where engine or difference equation do not have the exact motion's switches, the one must do what the other does.
+fn other_switches(at: &Subject, found: bool, expected: bool) -> Row {
+    if found != expected {
+        let who = if found { "the difference equation's" } else { "the engine's" };
+        return at.failed("switching_time", &format!("{who} motion alone has other switches than the exact one"));
+    }
+    let (basis, found, expected, tolerance) = (Basis::DifferenceEquation, 0.0, 0.0, 0.0);
+    let reason = "1 if the motion has the switches of the exact one in the same order; right: 1".to_owned();
+    at.row("same_switches", Judgement { basis, expected, found, tolerance, reason }).against(1.0, 0.0)
+}
+
+fn switching_row(at: &Subject, [found, expected]: [f64; 2], tolerance: f64, period: f64) -> Row {
+    let reason = "largest error, against that of the difference equation with its times interpolated alike; tolerance: that of the state over the slowest rate of an event function; right: 1 % of a period";
+    let (basis, reason) = (Basis::DifferenceEquation, reason.to_owned());
+    let judgement = Judgement { basis, expected, found, tolerance, reason };
     at.row("switching_time", judgement).against(0.0, RIGHT * period)
 }
 
-/// What holding a force over n substeps pumps in, by the numerical damping `-w^2 h e`, `e = 1 - (n + 1)/(2 n)`: its power `w^2 h e v^2` is
-/// `h e a^2` on average, a the acceleration. By the trapezoidal rule along the difference equation.
-fn pumped_energy(experiment: &Experiment, measured: &Measured, substeps: usize, step: f64) -> f64 {
-    let n = substeps as f64;
-    let power = |state: &State| {
-        let a = experiment.chain.acceleration(&state.positions, &state.velocities, &state.slider_forces);
-        let terms = a.iter().zip(experiment.chain.mass().iter()).map(|(a, mass)| mass * a * a);
-        step * (1.0 - (n + 1.0) / (2.0 * n)) * terms.sum::<f64>()
-    };
-    let pairs = measured.predicted.samples.windows(2);
-    pairs.map(|pair| 0.5 * (pair[1].time - pair[0].time) * (power(&pair[0].state) + power(&pair[1].state))).sum()
-}
-
-/// `A^2 h^p (1 + t/12)`, p the order: friction missed at extremes and the trapezoidal rule, each of order h^2, or velocities h/2 off.
-fn energy_row(
-    at: &Subject,
-    [found, expected]: [f64; 2],
-    experiment: &Experiment,
-    step: f64,
-    scale: f64,
-    floor: f64,
-) -> Row {
-    let order = at.configuration.expected_order();
-    let whole = scale * scale;
-    let tolerance = whole * step.powf(order) * (1.0 + experiment.duration() / 12.0) + 16.0 * floor;
-    let reason = "predicted: energy pumped in over the substeps, h (1 - (n+1)/(2n)) ∫a² dt; tolerance A² h^p (1 + t/12): friction over missed \
-                  extremes and the trapezoidal works (p = 2), or velocities half a step off (p = 1); right: 1 % of A²";
-    let judgement = Judgement { basis: Basis::Formula, expected, found, tolerance, reason: reason.to_owned() };
-    at.row("energy_residual", judgement).against(0.0, RIGHT * whole).with_floor(floor)
+fn energy_row(at: &Subject, [found, expected]: [f64; 2], scale: f64, floor: f64) -> Row {
+    let reason = format!(
+        "the ledger of the difference equation by the same trapezoidal rule; tolerance: {ROUNDINGS} floors of rounding times the size of the motion; right: 1 % of A²"
+    );
+    let (basis, tolerance) = (Basis::DifferenceEquation, ROUNDINGS * floor);
+    let judgement = Judgement { basis, expected, found, tolerance, reason };
+    at.row("energy_residual", judgement).against(0.0, RIGHT * scale * scale).with_floor(floor)
 }

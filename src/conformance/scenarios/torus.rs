@@ -2,7 +2,7 @@
 
 use super::rig_motion::{orbit, rig};
 use super::settled::Settled;
-use crate::conformance::experiment::{Experiment, RIGHT, bounded_row, hook_cases};
+use crate::conformance::experiment::{Experiment, RIGHT, bounded_row, friction_cases, is_notable};
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::{Basis, ConformanceError, Judgement, Row};
 use crate::dynamics::{Flow, Sampling};
@@ -16,9 +16,12 @@ const ID: &str = "torus";
 const XI1: f64 = -0.06;
 /// Far enough from the unstable limit cycle to be on the torus soon.
 const PERTURBATION: f64 = 0.3;
-const PERIODS: u32 = 400;
 /// Periods before the watched part.
-const TRANSIENT: f64 = 150.0;
+const TRANSIENT: u32 = 250;
+/// Periods watched: twelve modulations.
+const PERIODS: u32 = 150;
+/// Steps per period of configurations that tell less.
+const FEW: [u32; 3] = [128, 377, 1024];
 const SAMPLES: u32 = 128;
 const ROUNDINGS: f64 = 16.0;
 
@@ -32,7 +35,7 @@ impl Scenario for Torus {
     }
 
     fn description(&self) -> &'static str {
-        "The two-mass rig at ξ₁ = -0.06 on its limit torus, the last 250 of 400 periods. Measured: largest and smallest maximum of x1, \
+        "The two-mass rig at ξ₁ = -0.06 on its limit torus, 150 periods after a transient of 250, which the difference equation goes through before the engine takes over. Measured: largest and smallest maximum of x1, \
          and the angular frequency of their modulation."
     }
 
@@ -41,10 +44,13 @@ impl Scenario for Torus {
     }
 
     fn cases(&self, depth: Depth) -> Vec<Case> {
-        let mut cases = hook_cases(ID, "", depth);
+        let mut cases = friction_cases(ID, "", depth);
         for case in &mut cases {
             let (coarsest, finest) = if depth == Depth::Quick { (128, 512) } else { (64, 2048) };
             case.steps.retain(|steps| (coarsest..=finest).contains(steps));
+            if !is_notable(case.configuration) {
+                case.steps.retain(|steps| FEW.contains(steps));
+            }
         }
         cases
     }
@@ -56,19 +62,20 @@ impl Scenario for Torus {
         let chain = rig.chain().clone();
         let experiment =
             Experiment { scenario: ID, chain, start, period: orbit.period, periods: PERIODS, samples: SAMPLES };
-        let from = TRANSIENT * orbit.period;
-        let sampling = Sampling { interval: orbit.period / f64::from(SAMPLES), t_end: experiment.duration() };
+        let from = f64::from(TRANSIENT) * orbit.period;
+        let sampling = Sampling { interval: orbit.period / f64::from(SAMPLES), t_end: from + experiment.duration() };
         let exact = Settled::of(ID, &TwoMassFlow::new(&rig).trajectory(&experiment.start, sampling)?, from)?;
         let mut rows = Vec::new();
         for &steps in &case.steps {
             let at = subject(self, case).at(steps, orbit.period);
+            let experiment = experiment.clone().settled(case.configuration, steps, TRANSIENT);
             let measured = experiment.measure(bench, case.configuration, steps)?;
             rows.push(bounded_row(&at, &measured.trajectory, &measured.predicted));
             if measured.diverged() {
                 continue;
             }
-            let found = Settled::of(ID, &measured.trajectory, from)?;
-            let predicted = Settled::of(ID, &measured.predicted, from)?;
+            let found = Settled::of(ID, &measured.trajectory, 0.0)?;
+            let predicted = Settled::of(ID, &measured.predicted, 0.0)?;
             let numbers = [
                 ("largest_maximum", Some(predicted.largest), Some(found.largest), Some(exact.largest)),
                 ("smallest_maximum", Some(predicted.smallest), Some(found.smallest), Some(exact.smallest)),
