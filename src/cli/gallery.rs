@@ -5,7 +5,7 @@ use super::common::print;
 use super::film::{self, DrawArgs, Shown};
 use super::motions;
 use super::progress::Progress;
-use crate::film::{encode_png, gif, scaled};
+use crate::film::{encode_small_png, gif, scaled};
 use crate::render::Renderer;
 use crate::scene::{BUILT_IN, BUILT_IN_DISKS, Case, Scene};
 use crate::stage::Take;
@@ -76,7 +76,7 @@ fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<T
 fn picture(case: &Case, supersample: u32, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {
     let stage = stage(case, supersample, progress)?;
     let (image, _) = renderer.draw(&stage.frame((PICTURE_AT * stage.frame_count() as f64) as u64))?;
-    encode_png(&scaled(&image, PICTURE)).context("the picture could not be encoded")
+    encode_small_png(&scaled(&image, PICTURE)).context("the picture could not be encoded")
 }
 
 /// The rig alone: panels could not be read at this size.

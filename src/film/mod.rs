@@ -25,7 +25,7 @@ mod yuv;
 pub use animation::{animated_png, contact_sheet, gif, scaled};
 pub use error::{FilmError, SourceError};
 pub use ffmpeg::Ffmpeg;
-pub use picture::encode as encode_png;
+pub use picture::{encode as encode_png, encode_small as encode_small_png};
 pub use pipeline::produce;
 pub use report::{FilmReport, Progress, StageTimes};
 pub use settings::{Encoder, FilmSettings, Video};

@@ -11,14 +11,26 @@ use std::io::Cursor;
 /// # Errors
 /// As the encoder's; none for pictures in memory.
 pub fn encode(image: &RgbaImage) -> Result<Vec<u8>, EncodingError> {
+    encode_by(image, Compression::Fast, Filter::Sub)
+}
+
+/// The same picture in a smaller file, which takes far longer to make.
+///
+/// # Errors
+/// As [`encode`].
+pub fn encode_small(image: &RgbaImage) -> Result<Vec<u8>, EncodingError> {
+    encode_by(image, Compression::High, Filter::Adaptive)
+}
+
+fn encode_by(image: &RgbaImage, compression: Compression, filter: Filter) -> Result<Vec<u8>, EncodingError> {
     let (samples, colours) =
         if has_transparency(image) { (image.as_raw().clone(), ColorType::Rgba) } else { (rgb(image), ColorType::Rgb) };
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, image.width(), image.height());
     encoder.set_color(colours);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_compression(Compression::Fast);
-    encoder.set_filter(Filter::Sub);
+    encoder.set_compression(compression);
+    encoder.set_filter(filter);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&samples)?;

@@ -121,12 +121,14 @@ impl Plot {
             stroke: Some(self.stroke(1.0, self.palette.panel_edge)),
         });
         // The label of the x axis stands at the right end of the tick labels, which leave it room.
-        let room = self.area().max.x - text_width(&self.x_label, 11.0 * self.scale, false) - 16.0 * self.scale;
+        let wide = |text: &str| text_width(text, 11.0 * self.scale, false);
+        let room = self.area().max.x - wide(&self.x_label) - 6.0 * self.scale;
         for value in self.x.ticks() {
             self.draw_rule([self.pixel(value, self.y.min), self.pixel(value, self.y.max)], value == 0.0, out);
             let place = self.pixel(value, self.y.min) + Vec2::new(0.0, 14.0) * self.scale;
-            if place.x < room {
-                out.push(self.text(place, Anchor::Centre, self.x.written(value)));
+            let number = self.x.written(value);
+            if place.x + 0.5 * wide(&number) < room {
+                out.push(self.text(place, Anchor::Centre, number));
             }
         }
         for value in self.y.ticks() {

@@ -40,6 +40,7 @@ mod disk_exact;
 mod disk_film;
 mod disk_flutter;
 mod disk_linear;
+mod disk_run;
 mod disk_slow_flow;
 mod disk_waves;
 mod doubling;

@@ -7,8 +7,8 @@ use glam::Vec2;
 
 /// Left ends of labels and bars and right end of the numbers, and first row, pixels of a 720 lines high picture.
 const LABEL: f32 = 12.0;
-const BARS: f32 = 104.0;
-const NUMBERS: f32 = 64.0;
+const BARS: f32 = 100.0;
+const NUMBERS: f32 = 72.0;
 const FIRST_ROW: f32 = 46.0;
 
 /// One row.

@@ -71,13 +71,11 @@ impl Map {
         if let Some(edge) = self.map.divergence {
             let ends = [(-edge, plot.y.min), (-edge, plot.y.max)];
             plot.draw_line(ends.into_iter(), 1.2, palette.slip.with_alpha(0.7), out);
-            let beside = Vec2::new(-4.0, -5.0);
-            plot.draw_word([-edge, plot.y.min], beside, Anchor::Right, "diverges", palette.slip, out);
         }
         self.draw_here(now, out);
     }
 
-    /// What the lines and dots are, in the corner that amplitudes near the slip limit leave free.
+    /// What the lines and dots are: most in the corner that amplitudes near the slip limit leave free.
     fn draw_legend(&self, out: &mut Vec<OverlayItem>) {
         let (plot, palette) = (&self.plot, &self.plot.palette);
         let words = [
@@ -86,15 +84,24 @@ impl Map {
             ("range of motion", palette.faint_text),
         ];
         let corner = [plot.x.min, plot.y.max];
-        // The line of the scene's own damping may pass here.
-        let place = plot.pixel(corner[0], corner[1]) + Vec2::new(2.0, 1.0) * plot.scale;
-        let area = Rectangle { min: place, max: place + Vec2::new(88.0, 38.0) * plot.scale };
-        let fill = palette.panel.with_alpha(0.85);
-        out.push(OverlayItem::Box { area, corner_radius: 0.0, fill, stroke: None });
+        self.draw_ground(corner, [[2.0, 1.0], [90.0, 39.0]], out);
         for (row, (word, colour)) in words.into_iter().enumerate() {
             let shift = Vec2::new(5.0, 11.0 + 12.0 * row as f32);
             plot.draw_word(corner, shift, Anchor::Left, word, colour, out);
         }
+        if let Some(edge) = self.map.divergence {
+            let foot = [-edge, plot.y.min];
+            self.draw_ground(foot, [[-50.0, -15.0], [-2.0, -2.0]], out);
+            plot.draw_word(foot, Vec2::new(-4.0, -5.0), Anchor::Right, "diverges", palette.slip, out);
+        }
+    }
+
+    /// Ground for words, where the line of the scene's own damping may pass: a box between two corners beside a data point.
+    fn draw_ground(&self, [x, y]: [f64; 2], corners: [[f32; 2]; 2], out: &mut Vec<OverlayItem>) {
+        let plot = &self.plot;
+        let [min, max] = corners.map(|shift| plot.pixel(x, y) + Vec2::from(shift) * plot.scale);
+        let fill = plot.palette.panel.with_alpha(0.85);
+        out.push(OverlayItem::Box { area: Rectangle { min, max }, corner_radius: 0.0, fill, stroke: None });
     }
 
     /// The amplitude now, at the last turning point, on a line at the scene's own damping.

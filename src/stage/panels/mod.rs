@@ -25,8 +25,8 @@ use series::Series;
 const MOST_POINTS: usize = 700;
 /// Plots narrower than this have few ticks, pixels of a 720 lines high picture.
 const SMALL: f32 = 340.0;
-/// Pieces of a fading trail.
-const FADES: u32 = 10;
+/// Steps of a fading trail.
+const FADES: u32 = 8;
 /// Length of the bright part of a trail, non-dimensional time units.
 const TRAIL: f64 = 14.0;
 

@@ -130,7 +130,8 @@ impl PhasePlane {
     }
 }
 
-/// The past, faintly, and the last stretch fading into it.
+/// The past, faintly, and the last stretch fading into it: lines over each other, each beginning later, so that no ends overlap. With
+/// opacities `1/n` the `n`-th last line lets the opacity rise evenly to 1.
 fn draw_trail(
     plot: &Plot,
     motion: &Motion,
@@ -141,13 +142,10 @@ fn draw_trail(
     let colour: Colour = plot.palette.masses[0];
     let past = data(&mut motion.between((now.time - 8.0 * TRAIL).max(0.0), now.time, 3 * MOST_POINTS));
     plot.draw_line(past.into_iter(), 1.0, colour.with_alpha(0.22), out);
-    for piece in 0..FADES {
-        let part = |n: u32| now.time - TRAIL * (1.0 - f64::from(n) / f64::from(FADES));
-        if part(piece + 1) > 0.0 {
-            let recent = data(&mut motion.between(part(piece).max(0.0), part(piece + 1), MOST_POINTS));
-            let fresh = (piece + 1) as f32 / FADES as f32;
-            plot.draw_line(recent.into_iter(), 1.8, colour.with_alpha(0.15 + 0.85 * fresh), out);
-        }
+    for lines_left in (1..=FADES).rev() {
+        let from = now.time - TRAIL * f64::from(lines_left) / f64::from(FADES);
+        let recent = data(&mut motion.between(from.max(0.0), now.time, MOST_POINTS));
+        plot.draw_line(recent.into_iter(), 1.8, colour.with_alpha(1.0 / lines_left as f32), out);
     }
 }
 
