@@ -1,3 +1,5 @@
+use super::hopf::HopfError;
+use crate::chaos::ChaosError;
 use crate::compare::CompareError;
 use crate::engine::EngineError;
 use crate::exact::ExactError;
@@ -19,6 +21,10 @@ pub enum ConformanceError {
     Orbit(#[from] OrbitError),
     #[error("reference: {0}")]
     Modes(#[from] ModesError),
+    #[error(transparent)]
+    Hopf(#[from] HopfError),
+    #[error("reference: {0}")]
+    Chaos(#[from] ChaosError),
     #[error(transparent)]
     Parameter(#[from] ParameterError),
     #[error(transparent)]

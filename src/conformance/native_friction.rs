@@ -169,24 +169,40 @@ pub fn hold(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Resu
     Ok(Hold { settled: middle - start, creep_rate: (end - middle) / (half as f64 * settings.step) })
 }
 
+/// Damping and frequency of an oscillation in the engine, and in the difference equation where one is known.
+pub type Twofold = (Oscillation, Option<Oscillation>);
+
 /// Damping and frequency while the element sticks. Exact: 0 and the square root of 2.
 ///
 /// # Errors
 /// Whatever stops the engine, and a motion that is no oscillation.
-pub fn stick(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Oscillation, ConformanceError> {
-    let start = MechanismSample::at(vec![0.5], vec![0.0], 0.5);
-    let motion = run_free(making.oscillator(bench, settings, 1.0, Drive::Free)?, &start, 40.0)?;
-    of_carriage(&motion, settings.step)
+pub fn stick(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Twofold, ConformanceError> {
+    oscillation(bench, making, settings, 1.0, Start { positions: vec![0.5], velocities: vec![0.0], force: 0.5 })
 }
 
 /// Damping and frequency while the slider rides along. Exact frequency: 1, but for less than 3e-5.
 ///
 /// # Errors
 /// Whatever stops the engine, and a motion that is no oscillation.
-pub fn ride(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Oscillation, ConformanceError> {
-    let flow = making.oscillator(bench, settings, 1e-3, Drive::Free)?;
-    let motion = run_free(flow, &MechanismSample::at(vec![1.0], vec![0.0], 1e-3), RIDING_TIME)?;
-    of_carriage(&motion, settings.step)
+pub fn ride(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Twofold, ConformanceError> {
+    oscillation(bench, making, settings, 1e-3, Start { positions: vec![1.0], velocities: vec![0.0], force: 1e-3 })
+}
+
+fn oscillation(
+    bench: &dyn Bench,
+    making: Making,
+    settings: EngineSettings,
+    slip_force: f64,
+    start: Start,
+) -> Result<Twofold, ConformanceError> {
+    let chain = ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0).build()?;
+    let map = SliderMap { chain: &chain, stiffness: 1.0, slip_force, making, settings };
+    let predicted = map.positions(&start, (RIDING_TIME / settings.step).round() as u64);
+    let Start { positions, velocities, force } = start;
+    let flow = making.oscillator(bench, settings, slip_force, Drive::Free)?;
+    let motion = run_free(flow, &MechanismSample::at(positions, velocities, force), RIDING_TIME)?;
+    let predicted = predicted.and_then(|positions| Oscillation::of(&positions, settings.step));
+    Ok((of_carriage(&motion, settings.step)?, predicted))
 }
 
 /// A number found in the engine, given by the difference equation where one is known, and exact.

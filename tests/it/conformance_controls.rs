@@ -2,12 +2,16 @@
 
 use super::conformance::{case, rows};
 use std::sync::Arc;
-use stickslip::conformance::{Bench, Configuration, ConformanceError, Row, Verdict};
-use stickslip::engine::{Dampers, EngineFlow, ForceLaw, JenkinsElements, Known, Scheme, SelfExcitation, Springs};
-use stickslip::model::{JenkinsElement, OscillatorChain};
+use stickslip::conformance::{Bench, Configuration, ConformanceError, Physics, Row, Verdict};
+use stickslip::engine::{
+    Dampers, EngineFlow, ForceLaw, JenkinsElements, Known, PrescribedFlow, Scheme, SelfExcitation, Springs,
+};
+use stickslip::model::{ChainBuilder, JenkinsElement, OscillatorChain, PrescribedMotion};
 
 const STEPS: [u32; 4] = [128, 256, 512, 1024];
 const BESIDE: &str = "ten periods beside the cycle at xi1 = -0.06";
+const SETTLED: &str = "settled at xi1 = -0.01";
+const AVERAGED: Configuration = Configuration { scheme: Scheme::AveragedFriction, ..Configuration::RECIPE };
 
 /// Friction as a nonlinear spring: it unloads along the curve it was loaded on, so that no energy is lost.
 #[derive(Debug)]
@@ -30,6 +34,8 @@ enum Fault {
     WrongFriction,
     DampingSign,
     LostHalfStep,
+    /// Friction sampled at the steps where its mean was asked for.
+    SampledFriction,
 }
 
 struct Faulty(Fault);
@@ -43,6 +49,7 @@ impl Bench for Faulty {
     ) -> Result<EngineFlow, ConformanceError> {
         let scheme = match self.0 {
             Fault::LostHalfStep => Scheme::Plain,
+            Fault::SampledFriction => Scheme::SecondOrder,
             _ => configuration.scheme,
         };
         let flow = EngineFlow::new(chain, Configuration { scheme, ..configuration }.settings(step))?;
@@ -57,11 +64,41 @@ impl Bench for Faulty {
             friction,
         ])?)
     }
+
+    /// Wrong friction here is one that never slips, and so loses nothing.
+    fn prescribed(
+        &self,
+        chain: &OscillatorChain,
+        motion: PrescribedMotion,
+        configuration: Configuration,
+        step: f64,
+    ) -> Result<PrescribedFlow, ConformanceError> {
+        let strong = |element: &JenkinsElement| JenkinsElement { slip_force: 1e3 * element.slip_force, ..*element };
+        let mut builder = ChainBuilder::new(chain.mass().as_slice().to_vec()).add_stiffness(chain.stiffness());
+        for element in chain.jenkins() {
+            let wrong = matches!(self.0, Fault::WrongFriction);
+            builder = builder.jenkins(if wrong { strong(element) } else { *element });
+        }
+        Ok(PrescribedFlow::new(&builder.build()?, motion, configuration.settings(step))?)
+    }
 }
 
 fn faulty(fault: Fault, scenario: &str, variant: &str) -> Vec<Row> {
-    let (scenario, case) = case(scenario, variant, Configuration::RECIPE, &STEPS);
+    faulty_at(fault, scenario, variant, Configuration::RECIPE, &STEPS)
+}
+
+fn faulty_at(fault: Fault, scenario: &str, variant: &str, configuration: Configuration, steps: &[u32]) -> Vec<Row> {
+    let (scenario, case) = case(scenario, variant, configuration, steps);
     scenario.run(&case, &Faulty(fault)).unwrap()
+}
+
+/// Something fails, and nothing that measures the motion passes: whether it stays bounded, or is chaotic, may survive a fault.
+fn red(rows: &[Row]) {
+    assert!(rows.iter().any(|row| row.verdict == Verdict::Failed), "{rows:#?}");
+    let survives = ["bounded", "is_chaotic"];
+    for row in rows.iter().filter(|row| row.steps_per_period.is_some() && !survives.contains(&row.quantity.as_str())) {
+        assert_ne!(row.verdict, Verdict::Passed, "{row:?}");
+    }
 }
 
 fn verdicts<'a>(rows: &'a [Row], quantity: &str) -> Vec<&'a Row> {
@@ -113,6 +150,104 @@ fn a_lost_half_step_turns_state_order_and_switching_times_red() {
     assert_eq!(order.verdict, Verdict::Failed, "{order:?}");
     // First order is what is left.
     assert!((order.order.unwrap() - 1.0).abs() < 0.3, "{order:?}");
+}
+
+#[test]
+fn every_motion_with_friction_notices_friction_that_does_not_unload() {
+    for (scenario, variant, steps) in [
+        ("limit_cycle", SETTLED, 128),
+        ("energy_ledger", "", 128),
+        ("torus", "", 128),
+        ("amplitude_diagram", "xi1 = -0.060", 256),
+        ("chaos", "", 128),
+        ("secondary_hopf", "8 phases", 128),
+        ("hysteresis", "", 130),
+    ] {
+        red(&faulty_at(Fault::WrongFriction, scenario, variant, Configuration::RECIPE, &[steps]));
+    }
+}
+
+#[test]
+fn every_motion_with_damping_notices_its_sign() {
+    for (scenario, variant, steps) in [
+        ("limit_cycle", BESIDE, 128),
+        ("limit_cycle", SETTLED, 128),
+        ("energy_ledger", "", 128),
+        ("torus", "", 128),
+        ("amplitude_diagram", "xi1 = -0.060", 256),
+        ("chaos", "", 128),
+        ("secondary_hopf", "8 phases", 128),
+    ] {
+        red(&faulty_at(Fault::DampingSign, scenario, variant, Configuration::RECIPE, &[steps]));
+    }
+}
+
+#[test]
+fn every_second_order_motion_notices_a_lost_half_step() {
+    // Not among them: averages of chaos, which are insensitive to it within their statistical errors.
+    for (scenario, variant, steps) in [
+        ("negative_damping", "", 128),
+        ("friction_decay", "", 128),
+        ("limit_cycle", SETTLED, 128),
+        ("energy_ledger", "", 128),
+        ("torus", "", 128),
+        ("amplitude_diagram", "xi1 = -0.060", 256),
+        ("secondary_hopf", "8 phases", 128),
+    ] {
+        let rows = faulty_at(Fault::LostHalfStep, scenario, variant, Configuration::RECIPE, &[steps]);
+        assert!(rows.iter().any(|row| row.verdict == Verdict::Failed), "{scenario}: {rows:#?}");
+    }
+}
+
+#[test]
+fn friction_that_is_not_averaged_is_noticed_where_it_should_be() {
+    for (scenario, variant) in
+        [("limit_cycle", BESIDE), ("friction_decay", ""), ("energy_ledger", ""), ("secondary_hopf", "8 phases")]
+    {
+        let rows = faulty_at(Fault::SampledFriction, scenario, variant, AVERAGED, &[128, 256]);
+        assert!(rows.iter().any(|row| row.verdict == Verdict::Failed), "{scenario}: {rows:#?}");
+        for fault in [Fault::WrongFriction, Fault::LostHalfStep] {
+            let rows = faulty_at(fault, scenario, variant, AVERAGED, &[128]);
+            assert!(rows.iter().any(|row| row.verdict == Verdict::Failed), "{scenario}: {rows:#?}");
+        }
+    }
+}
+
+#[test]
+fn the_finest_hopf_points_are_right_at_every_phase_only_with_averaged_friction() {
+    let every_phase = |configuration| {
+        let rows = rows("secondary_hopf", "8 phases", configuration, &[2048]);
+        rows.into_iter().find(|row| row.quantity == "secondary_hopf_every_phase").unwrap()
+    };
+    let sampled = every_phase(Configuration::RECIPE);
+    assert_eq!((sampled.verdict, sampled.physics), (Verdict::Passed, Physics::Wrong), "{sampled:?}");
+    assert!(sampled.reason.contains("7 of 8 phases"), "{sampled:?}");
+    let averaged = every_phase(AVERAGED);
+    assert_eq!((averaged.verdict, averaged.physics), (Verdict::Passed, Physics::Right), "{averaged:?}");
+    // Measured 1.5e-8 with the difference equation and exact derivatives.
+    assert!(averaged.found.unwrap() < 3e-8);
+}
+
+#[test]
+fn averaged_friction_is_of_second_order() {
+    let mut all = rows("limit_cycle", BESIDE, AVERAGED, &[64, 128, 256, 512, 1024]);
+    all.extend(rows("limit_cycle", SETTLED, AVERAGED, &[64, 128, 256, 512]));
+    all.extend(rows("energy_ledger", "", AVERAGED, &[64, 128, 256, 512]));
+    all_green(&all);
+    for quantity in ["state_error", "switching_time", "amplitude", "angular_frequency"] {
+        let row = all.iter().find(|row| row.quantity == quantity && row.steps_per_period.is_none()).unwrap();
+        // Amplitudes are held against the difference equation's order; here against second order.
+        assert!((row.order.unwrap() - 2.0).abs() < 0.1, "{row:?}");
+    }
+}
+
+#[test]
+fn without_a_fault_chaos_is_chaos() {
+    let rows = rows("chaos", "", Configuration::RECIPE, &[128]);
+    all_green(&rows);
+    let chaotic = rows.iter().find(|row| row.quantity == "is_chaotic").unwrap();
+    assert_eq!((chaotic.found, chaotic.exact), (Some(1.0), Some(1.0)), "{chaotic:?}");
+    assert!(rows.iter().filter(|row| row.verdict == Verdict::Passed).count() >= 5, "{rows:#?}");
 }
 
 #[test]

@@ -16,6 +16,8 @@ const EXACT_HOPF: f64 = -0.0345753708;
 const ENGINE: Source<'static> = Source::Engine(&Rapier);
 const DEFAULTS: Configuration = Configuration { precision: Precision::Double, ..Configuration::ENGINE_DEFAULTS };
 
+const AVERAGED: Configuration = Configuration { scheme: Scheme::AveragedFriction, ..Configuration::RECIPE };
+
 fn rig(xi1: f64) -> TwoMassRig {
     TwoMassRig::new(RigParameters { xi1, ..RigParameters::default() }).unwrap()
 }
@@ -24,13 +26,15 @@ fn beside_the_limit_cycle() -> State {
     State::two_mass([1.2226496, 0.9053979, 0.0, -0.5377904, 1.0])
 }
 
-fn configurations() -> [Configuration; 5] {
+fn configurations() -> [Configuration; 7] {
     let recipe = Configuration::RECIPE;
     [
         recipe,
         Configuration { joints: Joints::Multibody, ..recipe },
         Configuration { substeps: 4, ..recipe },
         Configuration { scheme: Scheme::LaggingDamping, ..recipe },
+        AVERAGED,
+        Configuration { joints: Joints::Multibody, ..AVERAGED },
         DEFAULTS,
     ]
 }
@@ -174,6 +178,19 @@ fn the_hopf_point_of_the_recipe_is_off_by_a_bounded_multiple_of_the_square_of_th
             assert_eq!((more.len(), fewer.len()), (7, 1));
             assert!(more.iter().all(|p| (p.xi1 - EXACT_HOPF).abs() < 1e-6));
             assert!(fewer.iter().all(|p| (p.xi1 - EXACT_HOPF).abs() < 2.1e-6));
+        }
+    }
+}
+
+#[test]
+fn with_friction_averaged_over_the_step_the_hopf_point_is_of_second_order_at_every_phase() {
+    for steps in [128, 512, 2048] {
+        let problem = CycleProblem::symmetric(ENGINE, AVERAGED, steps, 0.0);
+        let n = steps as f64;
+        for p in over_phases(&problem, 16, EXACT_HOPF).unwrap() {
+            // Measured 0.047 + 15/n, by the difference equation with exact derivatives (dual numbers); rounding of the search.
+            assert!((p.xi1 - EXACT_HOPF).abs() * n * n < 0.06 + 16.0 / n + 5e-9 * n * n, "{steps}: {p:?}");
+            assert!(p.jump == 0.0);
         }
     }
 }

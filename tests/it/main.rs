@@ -75,6 +75,8 @@ mod reference_trajectory;
 mod scenes;
 #[cfg(feature = "render")]
 mod shaders;
+#[cfg(feature = "cli")]
+mod shared_model;
 mod small_disk;
 #[cfg(feature = "render")]
 mod small_scene;

@@ -7,7 +7,7 @@ use crate::engine::{DiscreteState, EngineFlow, Stepped};
 use crate::model::OscillatorChain;
 
 /// What makes steps of one length.
-pub(super) trait DiscreteMap {
+pub(in crate::conformance) trait DiscreteMap {
     /// The discrete state from which a motion starts.
     fn start(&self, initial: &State) -> Result<DiscreteState, HopfError>;
 
@@ -24,7 +24,7 @@ pub enum Source<'a> {
 }
 
 impl Source<'_> {
-    pub(super) fn map(
+    pub(in crate::conformance) fn map(
         self,
         chain: &OscillatorChain,
         configuration: Configuration,

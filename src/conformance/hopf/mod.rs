@@ -22,4 +22,6 @@ mod secondary_hopf;
 pub use discrete_map::Source;
 pub use discrete_orbit::{CycleProblem, DiscreteOrbit};
 pub use error::HopfError;
-pub use secondary_hopf::{HopfPoint, at_step, over_phases, phases, secondary_hopf};
+pub use secondary_hopf::{
+    HopfPoint, at_step, over_phases, pairs_over_phases, phases, secondary_hopf, secondary_hopf_near,
+};

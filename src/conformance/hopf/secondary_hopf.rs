@@ -20,6 +20,11 @@ const NARROWEST: f64 = 2e-9;
 /// means that the jump is found.
 const JUMP_BRACKET: f64 = 1e-5;
 const MAX_STEPS: usize = 60;
+/// The modulus is bent by a few units per square of xi1: from this far a linear step is right to 1e-12.
+const ONE_STEP: f64 = 1e-7;
+/// A phase that puts a switch on a grid time is moved by this part of the spacing of the phases, at most [`MOVES`] times.
+const MOVE: f64 = 0.07;
+const MOVES: u32 = 3;
 
 /// A secondary Hopf point of the engine at one phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +37,8 @@ pub struct HopfPoint {
     pub phase: f64,
     /// Steps n per period.
     pub steps: u64,
+    /// Change of the modulus with xi1; not to be relied on at a jump.
+    pub slope: f64,
     /// The multiplier on (or, at a jump, next to) the unit circle, above the real axis, of the closing map.
     pub multiplier: Complex<f64>,
     pub orbit: DiscreteOrbit,
@@ -49,7 +56,7 @@ pub fn secondary_hopf(problem: &CycleProblem<'_>, guess: f64) -> Result<HopfPoin
     search.take(second);
     for _ in 0..MAX_STEPS {
         if search.now.excess().abs() <= EXCESS {
-            return Ok(search.now.point(problem, 0.0, EXCESS));
+            return Ok(search.now.point(problem, search.slope(), 0.0, EXCESS));
         }
         if let Some(point) = search.jump(problem, NARROWEST) {
             return Ok(point);
@@ -63,6 +70,25 @@ pub fn secondary_hopf(problem: &CycleProblem<'_>, guess: f64) -> Result<HopfPoin
     }
     let (xi1, excess) = (search.now.xi1, search.now.excess());
     Err(HopfError::NoHopf { xi1, excess, iterations: MAX_STEPS })
+}
+
+/// The same, next to a point that is known for another map of the same settings: from its orbit, and by one step along its slope if that is
+/// enough, else by the whole search from `guess`.
+///
+/// # Errors
+/// As [`secondary_hopf`].
+pub fn secondary_hopf_near(problem: &CycleProblem<'_>, known: &HopfPoint, guess: f64) -> Result<HopfPoint, HopfError> {
+    if known.jump == 0.0
+        && let Ok(orbit) = problem.at(known.xi1).orbit_near(&known.orbit)
+    {
+        let here = Candidate::new(orbit, known.xi1)?;
+        if here.excess().abs() <= ONE_STEP {
+            let point = here.point(problem, known.slope, 0.0, EXCESS);
+            return Ok(HopfPoint { xi1: known.xi1 - here.excess() / known.slope, ..point });
+        }
+    }
+    // Not from the point itself: at a jump a switch lies on a grid time there.
+    secondary_hopf(problem, guess)
 }
 
 /// An orbit on the way to the Hopf point.
@@ -83,9 +109,9 @@ impl Candidate {
         self.multiplier.norm() - 1.0
     }
 
-    fn point(&self, problem: &CycleProblem<'_>, jump: f64, uncertainty: f64) -> HopfPoint {
+    fn point(&self, problem: &CycleProblem<'_>, slope: f64, jump: f64, uncertainty: f64) -> HopfPoint {
         let Self { xi1, multiplier, orbit } = self.clone();
-        HopfPoint { xi1, uncertainty, jump, phase: problem.phase, steps: problem.steps, multiplier, orbit }
+        HopfPoint { xi1, uncertainty, jump, slope, phase: problem.phase, steps: problem.steps, multiplier, orbit }
     }
 }
 
@@ -109,15 +135,20 @@ impl Search {
         let [Some(stable), Some(unstable)] = &self.bracket else { return None };
         let width = (stable.xi1 - unstable.xi1).abs();
         (width <= narrow).then(|| {
-            let point = unstable.point(problem, unstable.excess() - stable.excess(), 0.5 * width + EXCESS);
+            let jump = unstable.excess() - stable.excess();
+            let point = unstable.point(problem, self.slope(), jump, 0.5 * width + EXCESS);
             HopfPoint { xi1: 0.5 * (stable.xi1 + unstable.xi1), ..point }
         })
+    }
+
+    fn slope(&self) -> f64 {
+        (self.now.excess() - self.before.excess()) / (self.now.xi1 - self.before.xi1)
     }
 
     /// The secant's zero; the middle of the bracket where that lies outside, or gained little by the last step.
     fn next(&self) -> Option<f64> {
         let (before, now) = (&self.before, &self.now);
-        let step = -now.excess() * (now.xi1 - before.xi1) / (now.excess() - before.excess());
+        let step = -now.excess() / self.slope();
         if let [Some(stable), Some(unstable)] = &self.bracket {
             let (low, high) = (stable.xi1.min(unstable.xi1), stable.xi1.max(unstable.xi1));
             let secant = now.xi1 + step;
@@ -144,6 +175,35 @@ pub fn over_phases(problem: &CycleProblem<'_>, count: usize, guess: f64) -> Resu
     let at = |phase| secondary_hopf(&CycleProblem { phase, ..*problem }, guess);
     let found: Vec<_> = phases(count).into_par_iter().map(at).collect();
     // Collected first, so that which error is returned does not depend on which thread was faster.
+    found.into_iter().collect()
+}
+
+/// Hopf points of a map and of a reference map at `count` phases, computed in parallel, in their order. The reference is searched, the other found
+/// next to it. Phases at which either has a switch on a grid time are moved.
+///
+/// # Errors
+/// As [`over_phases`].
+pub fn pairs_over_phases(
+    problem: &CycleProblem<'_>,
+    reference: &CycleProblem<'_>,
+    count: usize,
+    guess: f64,
+) -> Result<Vec<[HopfPoint; 2]>, HopfError> {
+    let at = |phase: f64| {
+        let known = secondary_hopf(&CycleProblem { phase, ..*reference }, guess)?;
+        Ok([secondary_hopf_near(&CycleProblem { phase, ..*problem }, &known, guess)?, known])
+    };
+    let moved = |phase: f64| {
+        let mut found = at(phase);
+        for k in 1..=MOVES {
+            if !matches!(found, Err(HopfError::SwitchOnGrid { .. })) {
+                break;
+            }
+            found = at(phase + f64::from(k) * MOVE / count as f64);
+        }
+        found
+    };
+    let found: Vec<_> = phases(count).into_par_iter().map(moved).collect();
     found.into_iter().collect()
 }
 

@@ -65,6 +65,14 @@ impl Theory {
         self.ringing_growth() * RIDING_TIME > 1e3_f64.ln()
     }
 
+    /// Whether the way a contact yields in a substep of a motion of size 0.5 is less than half a spacing of the slider's stored position,
+    /// which is near -4: then it does not yield at all, and its slider does not move.
+    pub fn yielding_is_lost(&self) -> bool {
+        let force_per_time = HELD_FORCE * std::f64::consts::SQRT_2;
+        self.compliance > 0.0
+            && force_per_time * self.substep() * self.compliance < 4.0 * self.configuration.unit_roundoff()
+    }
+
     /// Position and time of the corner after the lower reversal.
     fn corner(&self) -> (f64, f64) {
         let position = (2.0 * (1.0 + self.compliance) - AMPLITUDE).min(AMPLITUDE);
@@ -127,11 +135,19 @@ impl Theory {
         // Positions are stored with the rest position of the slider, at -4: spacing 4 eps. Below 1e-8 creep takes 1e6 time units
         // for 1 % of the slip displacement.
         let resolution = 16.0 * self.configuration.unit_roundoff();
+        let row = |quantity: &str, expected: f64, found: f64, limit: f64| {
+            let row = judged(at, quantity, expected, found, 0.02 * expected + resolution + 1e-8).against(0.0, limit);
+            // What is predicted to be there, but could be lost in rounding altogether, is neither confirmed nor refuted.
+            let hidden = expected > 0.0 && expected < 2.0 * resolution;
+            if hidden {
+                row.unresolved(&format!("{expected:.1e} is predicted, roundings are {resolution:.1e}"))
+            } else {
+                row
+            }
+        };
         vec![
-            judged(at, "held_displacement", settled, found.settled, 0.02 * settled + resolution + 1e-8)
-                .against(0.0, RIGHT),
-            judged(at, "creep_rate", creep, found.creep_rate, 0.02 * creep + resolution + 1e-8)
-                .against(0.0, RIGHT / 1e3),
+            row("held_displacement", settled, found.settled, RIGHT),
+            row("creep_rate", creep, found.creep_rate, RIGHT / 1e3),
         ]
     }
 

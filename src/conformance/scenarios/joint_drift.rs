@@ -76,7 +76,18 @@ impl Scenario for JointDrift {
                 );
                 let judgement = Judgement { basis: Basis::Formula, expected, found, tolerance, reason };
                 let row = at.row(quantity, judgement).against(0.0, HARMLESS);
-                rows.push(row.with_floor(floor).with_trajectory(&hash));
+                let row = row.with_floor(floor).with_trajectory(&hash);
+                // Whether there is a sag cannot be seen below the floor; that it is harmless can.
+                let hidden = expected > 0.0 && floor > expected;
+                let physics = row.physics;
+                rows.push(if hidden {
+                    Row {
+                        physics,
+                        ..row.unresolved(&format!("the sag of {expected:.1e} lies below the floor of {floor:.1e}"))
+                    }
+                } else {
+                    row
+                });
             }
         }
         Ok(rows)

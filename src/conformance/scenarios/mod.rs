@@ -8,6 +8,7 @@ mod free_flight;
 mod friction_decay;
 mod friction_theory;
 mod hysteresis;
+mod invariants;
 mod joint_drift;
 mod limit_cycle;
 mod linear_oscillator;

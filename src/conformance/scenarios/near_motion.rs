@@ -85,11 +85,13 @@ pub(super) fn rows(
 
 /// Where engine or difference equation do not have the exact motion's switches, the one must do what the other does.
 fn other_switches(at: &Subject, found: bool, expected: bool) -> Row {
-    let reason = "1 if the motion has the switches of the exact one in the same order; right: 1";
-    let [found, expected] = [found, expected].map(|same| f64::from(u8::from(same)));
-    let (basis, tolerance) = (Basis::DifferenceEquation, 0.0);
-    let judgement = Judgement { basis, expected, found, tolerance, reason: reason.to_owned() };
-    at.row("same_switches", judgement).against(1.0, 0.0)
+    if found != expected {
+        let who = if found { "the difference equation's" } else { "the engine's" };
+        return at.failed("switching_time", &format!("{who} motion alone has other switches than the exact one"));
+    }
+    let (basis, found, expected, tolerance) = (Basis::DifferenceEquation, 0.0, 0.0, 0.0);
+    let reason = "1 if the motion has the switches of the exact one in the same order; right: 1".to_owned();
+    at.row("same_switches", Judgement { basis, expected, found, tolerance, reason }).against(1.0, 0.0)
 }
 
 fn switching_row(at: &Subject, [found, expected]: [f64; 2], tolerance: f64, period: f64) -> Row {

@@ -12,14 +12,17 @@
 //! xi1 - exact = c h^2 + (1.76e-4 e - 0.167 e^2),       c h^2 n^2 = 0.2 ... 1.5 for n = 64 ... 2048
 //! ```
 //!
-//! so that the error times n^2 is bounded by 1.5 + 0.167 (2 pi)^2 + 1.76e-4 (2 pi) n = 10.4 up to n = 2048 (c is measured, the rest computed from
-//! the exact solution). N takes two values as the phase
-//! varies, the less likely one with the larger |e|. At other xi1 the linear coefficient is larger, 0.023 at xi1 = -0.06: there multipliers at a single
-//! phase are of first order, and only their mean over the phases is of second.
+//! so that the error times n^2 is bounded by `1.5 + 0.167 (2 pi)^2 + 1.76e-4 (2 pi) n = 8.1 + 1.1e-3 n` (c is measured, the rest computed from the exact
+//! solution): of first order in the end, with a small coefficient. N takes two values as the phase varies, the less likely one with the larger |e|. At
+//! other xi1 the linear coefficient is larger, 0.023 at xi1 = -0.06: there multipliers at a single phase are of first order, and only their
+//! mean over the phases is of second.
+//!
+//! With friction averaged over the step a perturbation sticks for as long as the motion does, to higher order, and the Hopf point is of second order at
+//! every phase: measured, `0.047/n^2 + 15/n^3`, a hundredth of the above at 2048 steps.
 
 use crate::compare::observed_order;
 use crate::conformance::experiment::{RIGHT, friction_cases};
-use crate::conformance::hopf::{CycleProblem, HopfError, HopfPoint, Source, at_step, over_phases, phases};
+use crate::conformance::hopf::{CycleProblem, HopfError, HopfPoint, Source, at_step, pairs_over_phases, phases};
 use crate::conformance::scenario::{Bench, Case, Depth, Scenario, subject};
 use crate::conformance::{
     Basis, Configuration, ConformanceError, HOPF_QUANTITY, Judgement, ORDER_TOLERANCE, Row, Subject,
@@ -38,8 +41,6 @@ const ID: &str = "secondary_hopf";
 const FULL: [u32; 7] = [64, 128, 256, 384, 512, 1024, 2048];
 const QUICK: [u32; 2] = [256, 512];
 const FEWEST_FOR_FIRST_ORDER: u32 = 256;
-/// Bound on the error times n^2 of the recipe up to n = 2048, from the formula above.
-const BOUND: f64 = 10.4;
 /// Every phase is to be this near at 2048 steps.
 const WANTED: (u32, f64) = (2048, 1e-6);
 /// The engine's default step, in units of 1/angular frequency.
@@ -96,7 +97,15 @@ impl Scenario for SecondaryHopf {
     }
 }
 
-const NOT_IN_F32: &str = "in f32 every step rounds the state by 6e-8, so that a difference of 1e-4, the longest that moves no switch to another step, knows a derivative to a few per cent: multipliers are not determined to the 1e-3 that would matter";
+const NOT_IN_F32: &str = "below the floor of f32: n/2 steps round the state by 6e-8 sqrt(n/2), 1e-6 at 512 steps, so that a difference of 1e-4, about the longest that moves no switch to another step, knows a derivative and with it a multiplier to 1 %, and ξ₁ to 1 %/0.3 = 0.03, as large as the number sought; at 64 steps, where a hundredfold difference would do, the orbit itself is known to 1e-6 only, and the recipe is off by 2e-4 anyway";
+
+/// The acceptance of the finest step: every phase by itself.
+const EVERY_PHASE: &str = "secondary_hopf_every_phase";
+
+/// On the largest error over the phases times n², by the formula above.
+fn bound(n: f64) -> f64 {
+    8.1 + 1.1e-3 * n
+}
 
 fn variant_of(phases: usize) -> String {
     format!("{phases} phases")
@@ -139,10 +148,12 @@ impl Study<'_> {
         for &steps in ladder.iter().rev() {
             let at = Subject { steps_per_period: Some(steps), ..self.subject.clone() };
             match self.points(steps, guess) {
-                Ok([found, expected]) => {
+                Ok(pairs) => {
+                    let (found, expected): (Vec<_>, Vec<_>) = pairs.into_iter().map(|[a, b]| (a, b)).unzip();
                     // The shift is nearly proportional to the step, which doubles; one step beyond is left to the search.
                     guess = (self.exact + 1.8 * (mean(&expected) - self.exact)).min(-1e-3);
-                    errors.push((expected[0].orbit.step, (mean(&found) - self.exact).abs(), found.clone()));
+                    let error = |points: &[HopfPoint]| (mean(points) - self.exact).abs();
+                    errors.push((expected[0].orbit.step, error(&found), error(&expected)));
                     blocks.push(self.rows_at(&at, steps, &found, &expected));
                 }
                 Err(error) => blocks.push(vec![at.failed(HOPF_QUANTITY, &error.to_string())]),
@@ -157,9 +168,9 @@ impl Study<'_> {
     }
 
     /// Hopf points of the engine and of the difference equation.
-    fn points(&self, steps: u32, guess: f64) -> Result<[Vec<HopfPoint>; 2], HopfError> {
-        let of = |source| over_phases(&self.problem(source, steps.into()), self.count, guess);
-        Ok([of(Source::Engine(self.bench))?, of(Source::Theory)?])
+    fn points(&self, steps: u32, guess: f64) -> Result<Vec<[HopfPoint; 2]>, HopfError> {
+        let of = |source| self.problem(source, steps.into());
+        pairs_over_phases(&of(Source::Engine(self.bench)), &of(Source::Theory), self.count, guess)
     }
 
     fn problem<'b>(&self, source: Source<'b>, steps: u64) -> CycleProblem<'b> {
@@ -168,66 +179,125 @@ impl Study<'_> {
 
     fn rows_at(&self, at: &Subject, steps: u32, found: &[HopfPoint], expected: &[HopfPoint]) -> Vec<Row> {
         let at = Subject { dt: Some(expected[0].orbit.step), ..at.clone() };
+        let moved: Vec<String> = found
+            .iter()
+            .zip(phases(found.len()))
+            .filter(|(point, phase)| point.phase != *phase)
+            .map(|(point, phase)| format!("{phase:.3} to {:.3}", point.phase))
+            .collect();
+        let moved = if moved.is_empty() {
+            String::new()
+        } else {
+            format!("; phases moved, since a switch lay on a grid time: {}", moved.join(", "))
+        };
         let blurred = found.iter().chain(expected).map(|p| p.uncertainty).fold(0.0, f64::max);
         let judged = |found: f64, expected: f64, what: &str| Judgement {
             basis: Basis::DifferenceEquation,
             expected,
             found,
             tolerance: ROUNDING + 2.0 * blurred,
-            reason: format!("rounding of the multipliers, and the bracket around a jump of their modulus; {what}"),
+            reason: format!(
+                "rounding of the multipliers, and the bracket around a jump of their modulus; {what}{moved}"
+            ),
         };
-        let worst = |points: &[HopfPoint]| points.iter().map(|p| (p.xi1 - self.exact).abs()).fold(0.0, f64::max);
-        let limit = if steps == WANTED.0 { WANTED.1 } else { RIGHT * self.exact.abs() };
-        let right = if steps == WANTED.0 { "right: within 1e-6" } else { "right: within 1 %" };
         let row = |quantity: &str, value: &dyn Fn(&[HopfPoint]) -> f64, what: &str| {
             at.row(quantity, judged(value(found), value(expected), what))
         };
-        vec![
-            row(HOPF_QUANTITY, &mean, "mean over the phases; right: within 1 %")
-                .against(self.exact, RIGHT * self.exact.abs()),
+        let worst = |points: &[HopfPoint]| points.iter().map(|p| (p.xi1 - self.exact).abs()).fold(0.0, f64::max);
+        let limit = RIGHT * self.exact.abs();
+        let mut rows = vec![
+            row(HOPF_QUANTITY, &mean, "mean over the phases; right: within 1 %").against(self.exact, limit),
             row("secondary_hopf_spread", &spread, "largest less smallest over the phases"),
-            row("secondary_hopf_worst_error", &worst, right).against(0.0, limit),
-        ]
+            row("secondary_hopf_worst_error", &worst, "right: within 1 %").against(0.0, limit),
+        ];
+        if self.configuration.expected_order() == 2.0 {
+            rows.push(self.scaled_row(&at, steps, found, expected, ROUNDING + 2.0 * blurred));
+            if steps == WANTED.0 {
+                rows.push(row(EVERY_PHASE, &worst, &self.every_phase(found)).against(0.0, WANTED.1));
+            }
+        }
+        rows
     }
 
-    /// What the ladder shows: a bounded error times n^2 for the recipe, an order for configurations whose error is plainly of first order.
-    fn ladder_row(&self, errors: &[(f64, f64, Vec<HopfPoint>)]) -> Row {
+    /// Largest error times n²: bounded for the recipe, that of the difference equation where friction is averaged.
+    fn scaled_row(&self, at: &Subject, steps: u32, found: &[HopfPoint], expected: &[HopfPoint], blur: f64) -> Row {
+        let n = f64::from(steps);
+        let scaled =
+            |points: &[HopfPoint]| points.iter().map(|p| (p.xi1 - self.exact).abs() * n * n).fold(0.0, f64::max);
+        let judgement = if self.configuration.scheme == Scheme::AveragedFriction {
+            Judgement {
+                basis: Basis::DifferenceEquation,
+                expected: scaled(expected),
+                found: scaled(found),
+                tolerance: blur * n * n,
+                reason: "largest error over the phases times n²; rounding of the multipliers times n²".to_owned(),
+            }
+        } else {
+            Judgement {
+                basis: Basis::Formula,
+                expected: 0.0,
+                found: scaled(found),
+                tolerance: bound(n),
+                reason: "largest error over the phases times n², at most 8.1 + 0.0011 n: the smooth part 1.5, and a stick phase up to one step too short or too long for perturbations, 0.167 (2π)² + 1.76e-4 (2π) n".to_owned(),
+            }
+        };
+        at.row("secondary_hopf_error_times_n2", judgement)
+    }
+
+    /// What is to be said about single phases at the finest step.
+    fn every_phase(&self, found: &[HopfPoint]) -> String {
+        let errors: Vec<f64> = found.iter().map(|p| (p.xi1 - self.exact).abs()).collect();
+        let within = errors.iter().filter(|e| **e <= WANTED.1).count();
+        let largest_within = errors.iter().copied().filter(|e| *e <= WANTED.1).fold(0.0, f64::max);
+        let worst = errors.iter().copied().fold(0.0, f64::max);
+        let mut text = format!("right: every phase within {:e}", WANTED.1);
+        text += &format!(
+            "; {within} of {} phases are, by {largest_within:.2e}, the worst is off by {worst:.2e}",
+            errors.len()
+        );
+        if within < errors.len() {
+            text += ": perturbations stick for a whole number of steps, one fewer at some phases than at others, which moves the point by 1.76e-4 e - 0.167 e², |e| < h; the difference equation without the engine does the same, and friction averaged over the step does not";
+        }
+        text
+    }
+
+    /// What the ladder shows: an order for configurations whose error is plainly of one.
+    fn ladder_row(&self, errors: &[(f64, f64, f64)]) -> Row {
         match (self.configuration.substeps, self.configuration.scheme) {
             (1, Scheme::SecondOrder) => {
-                let scaled = |p: &HopfPoint| (p.xi1 - self.exact).abs() * (p.steps as f64).powi(2);
-                let found = errors.iter().flat_map(|(_, _, points)| points).map(scaled).fold(0.0, f64::max);
-                let judgement = Judgement {
-                    basis: Basis::Formula,
-                    expected: 0.0,
-                    // Nothing found is nothing bounded.
-                    found: if errors.is_empty() { f64::NAN } else { found },
-                    tolerance: BOUND,
-                    reason: "largest error times n² over steps and phases, bounded by 1.5 + 0.167 (2π)² + 1.76e-4 (2π) n: the smooth part, and a stick phase that is up to one step too short or too long for perturbations".to_owned(),
-                };
-                let row = self.subject.row("secondary_hopf_error_times_n2", judgement);
-                Row { expected_order: Some(2.0), ..row }
+                let reason = "no order to be seen: the error is bounded by (8.1 + 0.0011 n)/n² and scatters below that with the phases, of first order in the end with a small coefficient; see the rows about the error times n²";
+                self.subject.not_run(HOPF_QUANTITY, reason)
             }
-            (1, _) => {
+            (1, Scheme::LaggingDamping | Scheme::Plain) => {
                 let reason = "first order by theory, but since the damping is weak only 0.003/n: hidden up to 2048 steps by the spread over the phases, no order to be seen";
                 let row = self.subject.not_run(HOPF_QUANTITY, reason);
                 Row { expected_order: Some(1.0), ..row }
             }
-            _ => self.order_row(errors),
+            (1, Scheme::AveragedFriction) => {
+                let small: Vec<_> = errors.iter().filter(|(_, error, _)| *error > 8.0 * ROUNDING).collect();
+                let expected = observed_order(&small.iter().map(|(h, _, error)| (*h, *error)).collect::<Vec<_>>());
+                let expected = expected.map_or(f64::NAN, |order| order.slope);
+                let reason = "order of the difference equation: second, and a part of third order that fades, over errors above eight roundings";
+                self.order_row(&small.iter().map(|(h, error, _)| (*h, *error)).collect::<Vec<_>>(), expected, reason)
+            }
+            _ => {
+                let small: Vec<_> =
+                    errors.iter().map(|(h, error, _)| (*h, *error)).filter(|(_, e)| *e < LARGEST).collect();
+                let reason = "numerical damping of first order, where the shift is bent by a tenth";
+                self.order_row(&small, 1.0, reason)
+            }
         }
     }
 
-    fn order_row(&self, errors: &[(f64, f64, Vec<HopfPoint>)]) -> Row {
-        let small: Vec<_> = errors.iter().map(|(h, error, _)| (*h, *error)).filter(|(_, e)| *e < LARGEST).collect();
-        let order = if small.len() < FEWEST { None } else { observed_order(&small).ok() };
+    fn order_row(&self, errors: &[(f64, f64)], expected: f64, why: &str) -> Row {
+        let order = if errors.len() < FEWEST { None } else { observed_order(errors).ok() };
         let Some(order) = order else {
-            let reason = format!("no order to fit: {} of {} errors are below {LARGEST}", small.len(), errors.len());
+            let reason = format!("no order to fit: {} errors are neither too large nor rounding", errors.len());
             return self.subject.not_run(HOPF_QUANTITY, &format!("{reason}, {FEWEST} are needed"));
         };
-        let reason = format!(
-            "numerical damping of first order; over {} steps with errors below {LARGEST}, where the shift is bent by a tenth",
-            small.len()
-        );
-        let (basis, expected, found, tolerance) = (Basis::Order, 1.0, order.slope, ORDER_TOLERANCE);
+        let reason = format!("{why}; over {} steps", errors.len());
+        let basis = if expected == 1.0 { Basis::Order } else { Basis::DifferenceEquation };
+        let (found, tolerance) = (order.slope, ORDER_TOLERANCE);
         let row = self.subject.row(HOPF_QUANTITY, Judgement { basis, expected, found, tolerance, reason });
         Row { order: Some(found), expected_order: Some(expected), ..row }
     }
