@@ -18,9 +18,9 @@ use stickslip::model::{
 use stickslip::report::{Figure, Panel, Series, Style, Tint};
 
 const BLADES: [usize; 10] = [2, 4, 8, 16, 32, 64, 125, 250, 500, 1000];
-const REPETITIONS: usize = 9;
-/// Repeated until this much CPU time is used, so that one measurement is long against the clock.
-const LEAST_SECONDS: f64 = 0.02;
+const REPETITIONS: usize = 5;
+/// Repeated until this much CPU time is used, so that one measurement is long against the ticks of the clock, some milliseconds.
+const LEAST_SECONDS: f64 = 0.2;
 
 type Failure = Box<dyn std::error::Error>;
 

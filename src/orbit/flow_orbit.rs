@@ -73,18 +73,23 @@ impl FlowOrbit {
 
     /// Eigenvalues of the derivative of the closing map, largest modulus first.
     ///
-    /// Slip makes many of them zero; the QR iteration, which stops at entries small against their neighbours on the diagonal, would not end there. So the
-    /// matrix is shifted by a multiple of the identity first, far beyond the moduli that occur; eigenvalues are good to rounding of the shift.
+    /// Slip makes many of them zero, and the QR iteration, which stops at entries small against their neighbours on the diagonal, may not end there. It is
+    /// tried as it is first, then with the matrix shifted by a multiple of the identity and looser tolerances: eigenvalues are good to 1e-11 of the
+    /// largest entry at worst.
     ///
     /// # Errors
-    /// [`OrbitError::NoMultipliers`] if the iteration does not converge.
+    /// [`OrbitError::NoMultipliers`] if no attempt converges.
     pub fn multipliers(&self) -> Result<Vec<Complex<f64>>, OrbitError> {
         let size = self.closing.nrows();
         let shift = SHIFT * self.closing.amax().clamp(1.0, 10.0);
-        let shifted = &self.closing + DMatrix::identity(size, size) * shift;
-        let schur = nalgebra::linalg::Schur::try_new(shifted, f64::EPSILON, MOST_SWEEPS * size.max(1))
-            .ok_or(OrbitError::NoMultipliers { size })?;
-        let mut values: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().map(|value| value - shift).collect();
+        let attempts = [(0.0, 1.0), (shift, 16.0), (shift, 256.0), (shift, 4096.0)];
+        let found = attempts.into_iter().find_map(|(shift, looser)| {
+            let shifted = &self.closing + DMatrix::identity(size, size) * shift;
+            let tolerance = looser * f64::EPSILON;
+            let schur = nalgebra::linalg::Schur::try_new(shifted, tolerance, MOST_SWEEPS * size.max(1))?;
+            Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect::<Vec<_>>())
+        });
+        let mut values = found.ok_or(OrbitError::NoMultipliers { size })?;
         values.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
         Ok(values)
     }
