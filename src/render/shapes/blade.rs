@@ -53,7 +53,7 @@ impl Blade {
             let ring = self.ring(&mut mesh, station as f32 / (stations - 1) as f32, deflection);
             if let Some(inner) = previous {
                 for (a, b) in (0..AROUND).map(|corner| (corner, (corner + 1) % AROUND)) {
-                    mesh.quad([inner[a], inner[b], ring[b], ring[a]]);
+                    mesh.quad([inner[a], ring[a], ring[b], inner[b]]);
                 }
             }
             previous = Some(ring);
@@ -66,7 +66,7 @@ impl Blade {
             for corner in 0..SECTION.len() - 1 {
                 let face = [corner, corner + 1, AROUND - 2 - corner, AROUND - 1 - corner].map(|place| ring[place]);
                 let [a, b, c, d] = face;
-                mesh.quad(if sign > 0.0 { face } else { [d, c, b, a] });
+                mesh.quad(if sign > 0.0 { [d, c, b, a] } else { face });
             }
         }
         mesh
