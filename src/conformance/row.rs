@@ -185,11 +185,15 @@ impl Row {
             Some(_) => Physics::Wrong,
             None => Physics::NotJudged,
         };
-        match self.tolerance {
-            // Whatever was found within so wide a tolerance, it could have been anything.
-            Some(tolerance) if tolerance > limit && self.verdict == Verdict::Passed => self.unresolved(&format!(
-                "the tolerance {tolerance:.1e} of the prediction is wider than what counts as right, {limit:.1e}"
-            )),
+        match (self.tolerance, self.expected) {
+            // Within so wide a tolerance neither what is predicted can be told from the truth, nor right from wrong.
+            (Some(tolerance), Some(expected))
+                if self.verdict == Verdict::Passed && tolerance > limit && tolerance >= (expected - exact).abs() =>
+            {
+                self.unresolved(&format!(
+                    "the tolerance {tolerance:.1e} of the prediction is wider than what counts as right, {limit:.1e}, and than the predicted error"
+                ))
+            }
             _ => self,
         }
     }
@@ -260,7 +264,9 @@ mod tests {
         let row = judged(0.0, 0.001).against(0.0, 0.005);
         assert_eq!((row.verdict, row.physics), (Verdict::NotRun, Physics::NotJudged));
         assert!(row.reason.contains("not resolved"), "{row:?}");
-        // A miss stays a miss.
+        // A predicted error that stands out of the tolerance is resolved, and a miss stays a miss.
+        let row = judged(0.5, 0.501).against(0.0, 0.005);
+        assert_eq!((row.verdict, row.physics), (Verdict::Passed, Physics::Wrong));
         assert_eq!(judged(0.0, 0.1).against(0.0, 0.005).verdict, Verdict::Failed);
     }
 
