@@ -28,7 +28,7 @@ pub(super) struct Curve {
 /// `error of damping`; `state error` says so itself.
 pub(super) fn axis_label(quantity: &str) -> String {
     if quantity == HOPF_WORST {
-        return "error of ξ₁ at the secondary Hopf point, worst phase".to_owned();
+        return "error of ξ₁, worst phase".to_owned();
     }
     let words = quantity_in_words(quantity);
     if words.ends_with("error") || words.ends_with("residual") { words } else { format!("error of {words}") }
@@ -54,10 +54,12 @@ pub(super) fn errors(report: &Report, scenario: &str, variant: &str, quantity: &
         return None;
     }
     let mut panel = Panel::new("step h (a period is about 2π)", &axis_label(quantity)).log_x().log_y();
+    let mut floors = Vec::new();
     for (precision, tint) in [(Precision::Single, Tint::Grey), (Precision::Double, Tint::LightGrey)] {
         if let Some(floor) = floor(&rows, precision, &curves) {
             let label = format!("floor of rounding, {}", precision.word());
-            panel = panel.series(Series::new(&label, floor, Style::Thin, tint));
+            panel = panel.series(Series::new(&label, floor.clone(), Style::Thin, tint));
+            floors.push(floor);
         }
     }
     for curve in &curves {
@@ -65,7 +67,7 @@ pub(super) fn errors(report: &Report, scenario: &str, variant: &str, quantity: &
         panel = panel.series(Series::new(&curve.label(), curve.points.clone(), style, tint));
         panel = panel.series(Series::new("", curve.points.clone(), Style::Dots, tint));
     }
-    for mark in slopes(&curves) {
+    for mark in slopes(&curves, &floors) {
         panel = panel.with(mark);
     }
     let mut notes = Vec::new();

@@ -7,7 +7,7 @@ use crate::report::{Figure, Mark, Panel, Series, Style, Tint};
 
 /// Under the picture.
 pub(super) const CAPTION: &str = "Largest and smallest maximum of x1 from 300 to 600 periods, over ξ₁. One value at an ξ₁: a limit cycle; \
-     two: a torus, or chaos. No mark where a motion diverged. Lines only join the exact values that were computed.";
+     two: a torus, or chaos. No mark where a motion diverged. Lines only join the exact values that were computed; the band begins at the first ξ₁ tried at which the exact solution diverges.";
 
 /// Exact lines, and the two ways to run the engine over them; none without two exact values to join.
 pub(super) fn figure(report: &Report) -> Option<Figure> {

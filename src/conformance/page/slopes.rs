@@ -12,12 +12,14 @@ const LETTERS: f64 = 0.08;
 const ALIKE: f64 = 0.15;
 const ORDERS: [f64; 2] = [2.0, 1.0];
 
-/// A triangle for each order that a curve shows; none where there is no room.
-pub(super) fn slopes(curves: &[Curve]) -> Vec<Mark> {
+/// A triangle for each order that a curve shows, clear of curves and floors; none where there is no room.
+pub(super) fn slopes(curves: &[Curve], floors: &[Vec<(f64, f64)>]) -> Vec<Mark> {
     let curves: Vec<Vec<(f64, f64)>> = curves.iter().map(|curve| logarithms(&curve.points)).collect();
+    let all: Vec<Vec<(f64, f64)>> =
+        curves.iter().cloned().chain(floors.iter().map(|floor| logarithms(floor))).collect();
     let mut placed: Vec<Place> = Vec::new();
     for order in ORDERS {
-        let found = curves.iter().flat_map(|curve| places(curve, order, &curves));
+        let found = curves.iter().flat_map(|curve| places(curve, order, &all));
         if let Some(place) = found.into_iter().find(|place| placed.iter().all(|other| place.apart_from(other))) {
             placed.push(place);
         }
