@@ -50,7 +50,7 @@ fn start(disk: &BladedDisk, flow: &SparseFlow) -> Result<(State, f64), Failure> 
         let first = State { positions: vec![1.5, 0.7], ..State::rest(flow.chain()) };
         return Ok((flow.advance(&first, 100.0 * TAU)?.state, TAU));
     }
-    let alone = |k: &usize| (2..=*k).all(|d| k % d != 0 || n % d != 0);
+    let alone = |k: &usize| (2..=*k).all(|d| !k.is_multiple_of(d) || !n.is_multiple_of(d));
     let quarter = n / 4;
     let number = (0..quarter).flat_map(|k| [quarter - k, quarter + k]).find(alone).unwrap_or(1);
     let wave = TravellingWave::of(disk, NodalDiameter::new(number as i64, n), 32)?;
