@@ -7,10 +7,10 @@ use super::motions;
 use super::progress::Progress;
 use crate::film::{encode_small_png, gif, scaled};
 use crate::render::Renderer;
-use crate::scene::{BUILT_IN, BUILT_IN_DISKS, Case, Scene};
+use crate::scene::{BUILT_IN, BUILT_IN_DISKS, CameraMove, Case, Scene};
 use crate::stage::Take;
 use crate::store::write_atomically;
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -36,6 +36,9 @@ pub struct GalleryArgs {
     /// Directory for NAME.png and NAME.gif; files of these names are replaced.
     #[arg(short, long, value_name = "DIRECTORY", default_value = "renders/gallery")]
     output: PathBuf,
+    /// This scene alone.
+    #[arg(long, value_name = "NAME")]
+    only: Option<String>,
     /// No progress and no logs.
     #[arg(short, long)]
     quiet: bool,
@@ -47,13 +50,16 @@ pub fn run(args: &GalleryArgs) -> anyhow::Result<Verdict> {
     let progress = Progress::new(args.quiet);
     std::fs::create_dir_all(&args.output).with_context(|| format!("{} cannot be made", args.output.display()))?;
     let mut renderer = film::renderer(&args.draw, &progress)?;
-    for (name, text) in BUILT_IN {
+    let wanted = |name: &str| args.only.as_deref().is_none_or(|only| only == name);
+    let mut names = BUILT_IN.iter().map(|(name, _)| *name).chain([DISK]);
+    ensure!(names.any(wanted), "--only {:?} is not in the gallery", args.only.as_deref().unwrap_or_default());
+    for (name, text) in BUILT_IN.into_iter().filter(|(name, _)| wanted(name)) {
         let (_, case) = Scene::parse(text, name)?;
         let path = |extension: &str| args.output.join(format!("{name}.{extension}"));
         write(&path("png"), &picture(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
         write(&path("gif"), &short_loop(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
     }
-    for (name, text) in BUILT_IN_DISKS.into_iter().filter(|(name, _)| *name == DISK) {
+    for (name, text) in BUILT_IN_DISKS.into_iter().filter(|(name, _)| *name == DISK && wanted(name)) {
         let (_, case) = Scene::parse(text, name)?;
         let path = |extension: &str| args.output.join(format!("{name}.{extension}"));
         write(&path("png"), &picture(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
@@ -107,6 +113,7 @@ fn one_period(
 ) -> anyhow::Result<Vec<u8>> {
     let mut case = case.clone();
     case.direction.panels = Some(Vec::new());
+    case.direction.camera = CameraMove::default();
     let Take::Disk(stage) = stage(&case, supersample, progress)? else {
         anyhow::bail!("{} is no disk", case.title);
     };

@@ -4,7 +4,7 @@ use crate::dynamics::{Event, EventKind, Outcome, Sample, State, Trajectory};
 use crate::model::{ContactState, Direction, EnergyLedger, Scales, Works};
 use crate::scene::Case;
 use crate::store::{Column, ColumnData, Table};
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use serde_json::{Value, json};
 
 /// Quantities of a sample: name, unit in SI, scale, value.
@@ -71,6 +71,10 @@ pub fn from_table(table: &Table) -> anyhow::Result<(Case, Trajectory)> {
         table.metadata(key).with_context(|| format!("the table has no {key}: was it written by `stickslip simulate`?"))
     };
     let case: Case = serde_json::from_str(text("case")?).context("case of the table")?;
+    ensure!(
+        case.disk.is_none(),
+        "the table is of a bladed disk, whose stored motions cannot be filmed: give its scene"
+    );
     let scales: Scales = serde_json::from_str(text("scales")?).context("scales of the table")?;
     let outcome: Outcome = serde_json::from_str(text("outcome")?).context("outcome of the table")?;
     let number = |index: usize| -> anyhow::Result<Vec<f64>> {

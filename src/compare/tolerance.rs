@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! state, amplitude   A h^2 (1 + t/12) e^(lambda t)
-//! energy residual    A^2 h^2 (1 + t/12)
+//! energy residual    A^2 h^2 (1 + t/12), of each contact
 //! frequency          h^2 (1/12 + 4 A e^(lambda t)/t)
 //! ```
 //!

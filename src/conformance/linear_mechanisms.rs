@@ -63,18 +63,24 @@ impl Oscillator {
 #[must_use]
 pub fn step_map(mechanism: LinearMechanism, oscillator: Oscillator, step: f64, substeps: usize) -> Oscillation {
     let (w2, xi) = (oscillator.squared_frequency(), oscillator.xi());
-    let (det, trace, time) = match mechanism {
+    // `det - 1`, and the parts of the eigenvalue `trace/2 + i root`, `root^2 = det - trace^2/4`, each expanded so that nothing cancels: at fine
+    // steps the logarithm of det and the arc cosine of trace/(2 sqrt(det)) would know nothing but rounding.
+    let (log_det, real, imaginary, time) = match mechanism {
         LinearMechanism::Hook => {
             let b = weight(substeps);
-            (1.0 + w2 * step * step * (1.0 - b) - xi * step, 2.0 - xi * step - b * w2 * step * step, step)
+            let z = b * w2 * step;
+            let root = 0.5 * step * (4.0 * w2 - xi * xi - z * z - 2.0 * xi * z).sqrt();
+            let log_det = (w2 * step * step * (1.0 - b) - xi * step).ln_1p();
+            (log_det, 1.0 - 0.5 * step * (xi + z), root, step)
         }
         _ => {
             let d = step / substeps as f64;
-            let det = 1.0 / (1.0 + xi * d + w2 * d * d);
-            (det, det * (2.0 + xi * d), d)
+            // Both parts over det, which leaves the angle as it is.
+            let log_det = -(xi * d + w2 * d * d).ln_1p();
+            (log_det, 1.0 + 0.5 * xi * d, d * (w2 - 0.25 * xi * xi).sqrt(), d)
         }
     };
-    Oscillation { damping: -det.ln() / time, angular_frequency: (0.5 * trace / det.sqrt()).acos() / time }
+    Oscillation { damping: -log_det / time, angular_frequency: imaginary.atan2(real) / time }
 }
 
 /// Leading order of `xi_num - xi`.

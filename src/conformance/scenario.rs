@@ -1,5 +1,5 @@
-//! What a scenario is: a motion that is set up in the engine, measured, and judged against a reference that shares the model
-//! description and the orbit solver only with it.
+//! What a scenario is: a motion that is set up in the engine, measured, and judged against a reference that shares with it the description of the
+//! model, and no evolution in time.
 
 use super::ConformanceError;
 use super::configuration::{Configuration, Mechanism};
@@ -96,7 +96,7 @@ pub trait Scenario: Send + Sync {
     /// What moves, with its equation, and what is measured.
     fn description(&self) -> &'static str;
 
-    /// What the exact values come from. It shares the model description and the orbit solver only with the engine side.
+    /// What the exact values come from. It shares the description of the model with the engine side, and no evolution in time.
     fn reference(&self) -> &'static str;
 
     /// All cases of the full report, each with the depth that asks for it. `steps` of quick cases are those of `depth`.

@@ -69,7 +69,7 @@ pub fn cycle_near(flow: &SparseFlow, blades: usize, guess: &State, period: f64) 
     Ok(DiskCycle {
         amplitudes: blade_amplitudes(flow, &orbit, blades)?,
         stuck_contacts,
-        leading_multiplier: orbit.leading_multiplier(1 + stuck_contacts),
+        leading_multiplier: orbit.leading_multiplier(1 + stuck_contacts)?,
         orbit,
     })
 }

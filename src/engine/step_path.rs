@@ -106,11 +106,11 @@ mod tests {
         {
             let (steps, duration) = (20_000, 1.7);
             let d = duration / f64::from(steps);
-            let (mut force, mut sum, mut u) = (f, 0.0, 0.0);
+            let (mut force, mut sum, mut u) = (f, 0.0, 0.0_f64);
             for k in 1..=steps {
                 let t = f64::from(k) * d;
                 let next = t * (rate + 0.5 * acceleration * t);
-                let moved = (force + next - u as f64).clamp(-1.0, 1.0);
+                let moved = (force + next - u).clamp(-1.0, 1.0);
                 sum += 0.5 * d * (force + moved);
                 (force, u) = (moved, next);
             }

@@ -21,6 +21,8 @@ pub enum OrbitError {
         "Newton's method did not converge in {steps} steps: at {at:?} the residual is still {residual:e}. Start closer to the orbit"
     )]
     NoConvergence { at: Vec<f64>, residual: f64, steps: usize },
+    #[error("the {size} multipliers of an orbit could not be computed: the QR iteration did not converge")]
+    NoMultipliers { size: usize },
     #[error(
         "there is no limit cycle on the lower branch at xi1 = {wanted}: the branch turns at a fold just below xi1 = {reached}. Choose xi1 above it"
     )]

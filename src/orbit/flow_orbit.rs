@@ -19,6 +19,10 @@ const MOST_STEPS: usize = 40;
 const RESIDUAL: f64 = 2e-12;
 /// Singular values below this part of the largest count as zero.
 const RANK: f64 = 1e-11;
+/// Shift of the matrix whose eigenvalues are the multipliers, per largest entry.
+const SHIFT: f64 = 3.0;
+/// Steps of the QR iteration per eigenvalue, as LAPACK allows.
+const MOST_SWEEPS: usize = 30;
 
 /// How an orbit closes: component i of the image is `sign` times component `source[i]` of the state `fraction` of a period later.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,20 +72,37 @@ impl FlowOrbit {
     }
 
     /// Eigenvalues of the derivative of the closing map, largest modulus first.
-    #[must_use]
-    pub fn multipliers(&self) -> Vec<Complex<f64>> {
-        let mut values: Vec<Complex<f64>> = self.closing.complex_eigenvalues().iter().copied().collect();
+    ///
+    /// Slip makes many of them zero, and the QR iteration, which stops at entries small against their neighbours on the diagonal, may not end there. It is
+    /// tried as it is first, then with the matrix shifted by a multiple of the identity and looser tolerances: eigenvalues are good to 1e-11 of the
+    /// largest entry at worst.
+    ///
+    /// # Errors
+    /// [`OrbitError::NoMultipliers`] if no attempt converges.
+    pub fn multipliers(&self) -> Result<Vec<Complex<f64>>, OrbitError> {
+        let size = self.closing.nrows();
+        let shift = SHIFT * self.closing.amax().clamp(1.0, 10.0);
+        let attempts = [(0.0, 1.0), (shift, 16.0), (shift, 256.0), (shift, 4096.0)];
+        let found = attempts.into_iter().find_map(|(shift, looser)| {
+            let shifted = &self.closing + DMatrix::identity(size, size) * shift;
+            let tolerance = looser * f64::EPSILON;
+            let schur = nalgebra::linalg::Schur::try_new(shifted, tolerance, MOST_SWEEPS * size.max(1))?;
+            Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect::<Vec<_>>())
+        });
+        let mut values = found.ok_or(OrbitError::NoMultipliers { size })?;
         values.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
-        values
+        Ok(values)
     }
 
     /// The largest modulus among the multipliers over a full period, without the `neutral` ones nearest to 1: the one along the motion, and one
     /// for every contact that never slips.
-    #[must_use]
-    pub fn leading_multiplier(&self, neutral: usize) -> f64 {
-        let mut values = self.multipliers();
+    ///
+    /// # Errors
+    /// As [`Self::multipliers`].
+    pub fn leading_multiplier(&self, neutral: usize) -> Result<f64, OrbitError> {
+        let mut values = self.multipliers()?;
         values.sort_by(|a, b| (a - 1.0).norm().total_cmp(&(b - 1.0).norm()));
-        values.iter().skip(neutral).map(|value| value.norm()).fold(0.0, f64::max).powf(1.0 / self.closure.fraction)
+        Ok(values.iter().skip(neutral).map(|value| value.norm()).fold(0.0, f64::max).powf(1.0 / self.closure.fraction))
     }
 }
 

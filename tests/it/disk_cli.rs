@@ -59,6 +59,44 @@ fn waves_and_motions_are_printed_and_written() {
     assert!(folder.path().join("w.csv").exists() && folder.path().join("w.svg").exists());
 }
 
+#[test]
+fn engine_and_slow_flow_write_the_columns_of_the_exact_motion_and_agree_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |solver: &str| {
+        let path = folder.path().join(format!("{solver}.csv"));
+        let args =
+            ["disk", "simulate", &scene("disk_forward_wave"), "--with", solver, "--t-end", "400", "--json", "-o"];
+        let json = document(&[&args[..], &[path.to_str().unwrap()]].concat());
+        let text = std::fs::read_to_string(path).unwrap();
+        let header = text.lines().find(|line| line.starts_with("t [1],")).unwrap().to_owned();
+        (json, header)
+    };
+    let [exact, engine, slow] = ["exact", "rapier", "slow-flow"].map(run);
+    assert!(exact.1 == engine.1 && exact.1 == slow.1, "{} {} {}", exact.1, engine.1, slow.1);
+    let amplitude = |json: &serde_json::Value| json["final"]["amplitudes"][3].as_f64().unwrap();
+    let [a, b, c] = [&exact.0, &engine.0, &slow.0].map(amplitude);
+    // The engine at 1024 steps a period, second order; averaging: the describing function and the frequency at which waves are seen.
+    assert!((a - b).abs() < 1e-3 && (a - c).abs() < 0.03 * a, "{a} {b} {c}");
+    for json in [&exact.0, &engine.0, &slow.0] {
+        assert_eq!(json["final"]["strongest_nodal_diameter"], 3);
+    }
+    assert!(exact.0["events"].as_u64().unwrap() > 100 && slow.0["events"].is_null());
+    assert!(engine.0["work"]["steps"].as_u64().unwrap() > 10_000 && slow.0["work"]["steps"].as_u64().unwrap() < 1000);
+    assert_eq!(engine.0["parameters"]["engine"]["substeps"], 1);
+    refused(&["disk", "simulate", &scene("disk_forward_wave"), "--dt", "0.01"], &["--with rapier"]);
+}
+
+#[test]
+fn a_cycle_of_a_mistuned_disk_is_printed() {
+    let json = document(&["disk", "cycle", &scene("disk_mistuned"), "--wave", "6", "--json"]);
+    assert_eq!(json["amplitudes"].as_array().unwrap().len(), 24);
+    assert!(json["residual"].as_f64().unwrap() < 1e-11 && json["participation"].as_f64().unwrap() < 1.0);
+    // 24 displacements, velocities and forces.
+    assert_eq!(json["floquet_multipliers"].as_array().unwrap().len(), 72);
+    refused(&["disk", "cycle", &scene("disk_mistuned"), "--wave", "-6"], &["no limit cycle", "-6"]);
+    refused(&["disk", "cycle", &scene("chain_100"), "--wave", "1"], &["ring"]);
+}
+
 fn flutter(folder: &Path) -> Command {
     let mut command = Command::new(cargo_bin("stickslip"));
     command.args(["disk", "flutter", &scene("disk_mistuned"), "--samples", "60", "--periods", "60", "-q", "-o"]);

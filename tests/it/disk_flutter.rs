@@ -68,3 +68,53 @@ fn a_mistuning_that_is_not_random_is_refused() {
     let plan = MonteCarlo { disk: plan(1).disk.tuned(), ..plan(1) };
     assert!(plan.run(None, |_, _| {}).unwrap_err().to_string().contains("normal"));
 }
+
+#[test]
+fn motions_are_followed_until_they_settle_and_the_rest_counts_apart() {
+    let (short, long) = (plan(40), MonteCarlo { longest: 3840.0, ..plan(40) });
+    let given_up = MonteCarlo { longest: 60.0, ..plan(40) };
+    let [first, short, long] = [&given_up, &short, &long].map(|plan| on_threads(plan, 2, None));
+    let unsettled = |rows: &[SampleRow]| Summary::of(rows).fates.unsettled;
+    // After 60 periods some still grow or beat; longer motions leave fewer of them.
+    assert!(
+        unsettled(&first) >= 3 && unsettled(&long) < unsettled(&first),
+        "{} {}",
+        unsettled(&first),
+        unsettled(&long)
+    );
+    assert!(unsettled(&short) <= unsettled(&first));
+    for (a, b) in first.iter().zip(&long) {
+        // What had settled is left alone; what had not is longer, by fours.
+        assert!(if a.settled { a == b } else { [240.0, 960.0, 3840.0].contains(&b.periods) }, "{a:?} {b:?}");
+        assert!(b.settled || b.periods == 3840.0);
+    }
+    // Quantiles are of settled flutter alone.
+    let mut settled: Vec<f64> =
+        long.iter().filter(|row| row.fate == Fate::Flutter && row.settled).map(|row| row.amplitude).collect();
+    settled.sort_by(f64::total_cmp);
+    let summary = Summary::of(&long);
+    assert_eq!(summary.fates.flutter, settled.len());
+    assert_eq!(summary.amplitude_quantiles[2], settled[((settled.len() - 1) as f64 * 0.5).round() as usize]);
+    assert_eq!(summary.lengths.iter().map(|(_, count)| count).sum::<usize>(), 40);
+}
+
+#[test]
+fn a_settled_amplitude_is_that_of_a_motion_twice_as_long() {
+    // The criterion means something: disks called settled keep their amplitude, seen over the same motion followed for longer.
+    let rows = on_threads(&MonteCarlo { longest: 3840.0, ..plan(20) }, 2, None);
+    let mut checked = 0;
+    for row in rows.iter().filter(|row| row.fate == Fate::Flutter && row.settled) {
+        let twice = MonteCarlo { periods: 2.0 * row.periods, longest: 2.0 * row.periods, ..plan(20) };
+        let later = twice.sample(row.seed).unwrap();
+        // The 1 % of the criterion, over ten times the span of its windows: slow drifts may add up.
+        assert!((later.amplitude / row.amplitude - 1.0).abs() < 0.05, "{row:?} {later:?}");
+        checked += 1;
+    }
+    assert!(checked >= 3, "{checked}");
+}
+
+#[test]
+fn a_longest_time_below_the_first_is_refused() {
+    let plan = MonteCarlo { longest: 10.0, ..plan(1) };
+    assert!(plan.run(None, |_, _| {}).unwrap_err().to_string().contains("longest = 10"));
+}

@@ -33,12 +33,15 @@ mod derivatives;
 mod diagram;
 #[cfg(feature = "cli")]
 mod disk_cli;
+mod disk_cycles;
 #[cfg(feature = "engine")]
 mod disk_engine;
 mod disk_exact;
 mod disk_film;
 mod disk_flutter;
 mod disk_linear;
+mod disk_run;
+mod disk_slow_flow;
 mod disk_waves;
 mod doubling;
 #[cfg(feature = "cli")]

@@ -149,7 +149,7 @@ fn diagram() -> String {
             writeln!(svg, "<path d=\"M{end:.1} {above}L{end:.1} {below}\" stroke=\"#18202a\" stroke-width=\"1.5\"/>");
     }
     svg.push_str(&text([0.5 * (from + to), height - 30.0], 13, "middle", "#18202a", "σ/ω"));
-    svg.push_str(&text([right, middle + 18.0], 13, "end", "#4c5967", "time"));
+    svg.push_str(&text([right, middle + half + 22.0], 13, "end", "#4c5967", "time"));
     svg
 }
 

@@ -64,7 +64,7 @@ pub fn run(args: &CycleArgs) -> anyhow::Result<Verdict> {
         let state = State::from_components(cycle.orbit.state.as_slice(), &chain)?;
         let waves = wave_amplitudes(&state, disk.sectors, cycle.orbit.angular_frequency());
         let ring = disk.topology == Topology::Ring;
-        let multipliers: Vec<[f64; 2]> = cycle.orbit.multipliers().iter().map(|m| [m.re, m.im]).collect();
+        let multipliers: Vec<[f64; 2]> = cycle.orbit.multipliers()?.iter().map(|m| [m.re, m.im]).collect();
         let document = Document::new("disk cycle", json!({"disk": disk, "from": how}))
             .with("amplitudes", json!(cycle.amplitudes))
             .with("angular_frequency", json!(cycle.orbit.angular_frequency()))

@@ -109,7 +109,7 @@ pub(super) const HOW_TO_READ: [&str; 5] = [
 ];
 
 /// Why the neighbours of the recipe will not do.
-pub(super) const WHY: [&str; 3] = [
+pub(super) const WHY: [&str; 4] = [
     "One substep is what matters for amplitude, frequency and Hopf point. A force that is evaluated once a step stands still while the engine moves the bodies \
      substep by substep; that pumps energy in, in proportion to the step. With one substep nothing is pumped in, whatever is done about velocities, and every \
      configuration with one substep has these three right at the same steps.",
@@ -117,6 +117,8 @@ pub(super) const WHY: [&str; 3] = [
      or late in a damping law, they make the state and the times of stick and slip wrong in proportion to the step; with both corrections the error falls with its \
      square. On the rig's limit cycle the velocity errors nearly cancel over a period, because its damping is weak: this is why the three numbers above do not show them, and why \
      some may even come out closer to the truth without the corrections at one step. A stronger damper would show them.",
+    "What is left of the error of the Hopf point with friction sampled at x_n is a scatter over where within a step the motion reverses: small deviations feel the spring of the friction \
+     element for a whole number of steps, not for the time it sticks. It can hide the error of the velocities, or cancel it. Friction averaged over the step has no such scatter.",
     "The choice of joints makes no difference with force laws of one's own, and f32 none until its floor of rounding is reached.",
 ];
 

@@ -22,14 +22,14 @@ pub fn html(report: &Report, changes: Option<&Changes>) -> Result<String, Confor
     let class = if report.tally.failed == 0 { "verdict passed" } else { "verdict failed" };
     let body = html! {
         div class=(class) { @for sentence in answer(report) { p { (sentence) } } }
-        @if report.tally.failed > 0 { h2 { "Not as predicted" } (table(&tables::failures(report))) }
-        @if let Some(changes) = changes {
-            h2 { "Changes" } p { (summary(changes)) } (table(&tables::changes(changes)))
-        }
         h2 #advice { "Fewest steps per period for 1 %" }
         (table(&advice::fewest_steps(report)))
         p.caption { (FEWEST_CAPTION) }
         p { (STEPS) }
+        @if report.tally.failed > 0 { h2 { "Not as predicted" } (table(&tables::failures(report))) }
+        @if let Some(changes) = changes {
+            h2 { "Changes" } p { (summary(changes)) } (table(&tables::changes(changes)))
+        }
         nav { ul {
             li { a href="#why" { "Why this, and not its neighbours" } } li { a href="#faults" { "Whose fault is what" } }
             li { a href="#reading" { "How to read this" } } li { a href="#damping" { "Numerical damping" } }

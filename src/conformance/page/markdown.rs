@@ -15,6 +15,10 @@ pub fn markdown(report: &Report, changes: Option<&Changes>) -> String {
         let _ = writeln!(page, "{line}\n");
     };
     answer(report).iter().for_each(|sentence| say(sentence));
+    say("## Fewest steps per period for 1 %");
+    say(&grid(&advice::fewest_steps(report)));
+    say(FEWEST_CAPTION);
+    say(STEPS);
     if report.tally.failed > 0 {
         say("## Not as predicted");
         say(&grid(&tables::failures(report)));
@@ -24,10 +28,6 @@ pub fn markdown(report: &Report, changes: Option<&Changes>) -> String {
         say(&summary(changes));
         say(&grid(&tables::changes(changes)));
     }
-    say("## Fewest steps per period for 1 %");
-    say(&grid(&advice::fewest_steps(report)));
-    say(FEWEST_CAPTION);
-    say(STEPS);
     say("## Why this, and not its neighbours");
     WHY.iter().for_each(|line| say(line));
     if let Some((_, steps)) = best(report) {

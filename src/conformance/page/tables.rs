@@ -38,10 +38,11 @@ pub(super) fn rough(value: Option<f64>) -> Entry {
     let text = match value.abs() {
         0.0 => "0".to_owned(),
         size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
-        size => {
-            let decimals = (1.0 - size.log10().floor()).max(0.0) as i32;
-            let unit = 10_f64.powi(1 - size.log10().floor() as i32);
-            format!("{:.*}", decimals as usize, (value * unit).round() / unit)
+        _ => {
+            // Rounded first: 9.97 has no decimal of two digits.
+            let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+            let decimals = (1.0 - rounded.abs().log10().floor()).max(0.0);
+            format!("{rounded:.*}", decimals as usize)
         }
     };
     Entry { text, key: Some(value) }
@@ -237,7 +238,7 @@ mod tests {
     #[test]
     fn rough_numbers_have_two_digits() {
         let shown = |value| rough(Some(value)).text;
-        assert_eq!([1819.3, 94.96, 9.44, 0.01578].map(shown), ["1800", "95", "9.4", "0.016"]);
+        assert_eq!([1819.3, 94.96, 9.97, 9.44, 0.01578].map(shown), ["1800", "95", "10", "9.4", "0.016"]);
         assert_eq!([1.25e-7, 2.04e6, 0.0].map(shown), ["1.2e-7", "2.0e6", "0"]);
         assert_eq!(rough(None).text, "–");
     }

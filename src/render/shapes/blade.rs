@@ -53,7 +53,7 @@ impl Blade {
             let ring = self.ring(&mut mesh, station as f32 / (stations - 1) as f32, deflection);
             if let Some(inner) = previous {
                 for (a, b) in (0..AROUND).map(|corner| (corner, (corner + 1) % AROUND)) {
-                    mesh.quad([inner[a], inner[b], ring[b], ring[a]]);
+                    mesh.quad([inner[a], ring[a], ring[b], inner[b]]);
                 }
             }
             previous = Some(ring);
@@ -62,9 +62,11 @@ impl Blade {
             let ring = self.ring(&mut mesh, s, deflection);
             let along = self.axes(s, deflection)[0] * sign;
             ring.iter().for_each(|&corner| mesh.normals[corner as usize] = along);
-            for corner in 1..AROUND - 1 {
-                let [a, b, c] = [ring[0], ring[corner], ring[corner + 1]];
-                mesh.triangles.push(if sign > 0.0 { [a, b, c] } else { [a, c, b] });
+            // From the upper side to the lower one, which is hollow: a fan would fold over.
+            for corner in 0..SECTION.len() - 1 {
+                let face = [corner, corner + 1, AROUND - 2 - corner, AROUND - 1 - corner].map(|place| ring[place]);
+                let [a, b, c, d] = face;
+                mesh.quad(if sign > 0.0 { [d, c, b, a] } else { face });
             }
         }
         mesh

@@ -34,10 +34,14 @@ pub fn wire(points: &[Vec3], radius: f32, sides: usize, closed: bool) -> Mesh {
         }
     }
     if !closed {
-        let (first, end) = (rings[0].clone(), rings[count - 1].clone());
-        for side in 1..section.len() - 1 {
-            mesh.triangles.push([first[0], first[side], first[side + 1]]);
-            mesh.triangles.push([end[0], end[side + 1], end[side]]);
+        let ends = [(0, points[0] - points[1]), (count - 1, points[count - 1] - points[count - 2])];
+        for (index, out) in ends {
+            let cap: Vec<u32> =
+                rings[index].iter().map(|&corner| mesh.corner(mesh.positions[corner as usize], out)).collect();
+            for side in 1..section.len() - 1 {
+                let [a, b, c] = [cap[0], cap[side], cap[side + 1]];
+                mesh.triangles.push(if index == 0 { [a, b, c] } else { [a, c, b] });
+            }
         }
     }
     mesh

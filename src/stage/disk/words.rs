@@ -14,8 +14,8 @@ use glam::{Vec2, Vec3};
 /// Radius at which numbers stand, and that of the arrow of forward waves.
 const NUMBERS: f32 = TIP_RADIUS + 0.27;
 const ARROW: f32 = TIP_RADIUS + 0.5;
-/// The arrow's ends, rad counter-clockwise from the right, and its points.
-const ARROW_ENDS: [f32; 2] = [-1.05, -0.45];
+/// The arrow's ends, rad counter-clockwise from the right of the picture, and its points.
+const ARROW_ENDS: [f32; 2] = [-0.84, -0.26];
 const ARROW_POINTS: u32 = 16;
 
 #[derive(Debug, Clone)]
@@ -80,7 +80,9 @@ impl Words {
 
     /// Counter-clockwise seen from above, in front of the disk at the right.
     fn draw_arrow(&self, camera: &Camera, size: [u32; 2], out: &mut Vec<OverlayItem>) {
-        let [from, to] = ARROW_ENDS;
+        // In front of the disk wherever it is seen from.
+        let towards = camera.eye - camera.target;
+        let [from, to] = ARROW_ENDS.map(|end| end + towards.x.atan2(towards.z));
         let place = |angle: f32, radius: f32| Vec3::new(radius * angle.cos(), HEIGHT, -radius * angle.sin());
         let at = |angle: f32, radius: f32| camera.project(place(angle, radius), size);
         let arc = (0..=ARROW_POINTS).map(|n| from + (to - from) * n as f32 / ARROW_POINTS as f32);

@@ -31,7 +31,7 @@ impl Carpet {
         let (motion, blades) = (frame.motion, frame.motion.blades());
         let axes = [Axis::exactly(0.0, WINDOW.min(motion.end())), Axis::exactly(-0.5, blades as f64 - 0.5)];
         let plot = frame.plot(place, "Deflection of every blade", ["t", "blade"], axes);
-        let count = (motion.end() / COLUMN + 0.5).floor() as usize;
+        let count = (motion.end() / COLUMN + 1e-9).floor() as usize;
         let column = |k: usize| {
             let now = motion.at((k as f64 + 0.5) * COLUMN);
             now.positions.into_iter().take(blades)
@@ -52,13 +52,14 @@ impl Carpet {
         let plot = Plot { x: Axis { tick: self.plot.x.tick, ..Axis::exactly(end - window, end) }, ..self.plot.clone() };
         plot.draw_frame(out);
         let first = ((end - window) / COLUMN).ceil() as usize;
-        let known = ((now.time / COLUMN + 0.5).floor() as usize).min(self.columns.len() / self.blades);
+        // Whole columns alone: rounding may put the end of one just after now.
+        let known = ((now.time / COLUMN + 1e-9).floor() as usize).min(self.columns.len() / self.blades);
         if known > first {
             let count = known - first;
             let cell = |n: usize| self.columns[(first + n % count) * self.blades + self.blades - 1 - n / count];
             let [left, right] = [first, known].map(|k| k as f64 * COLUMN);
             out.push(OverlayItem::Raster {
-                area: Rectangle { min: plot.pixel(left, plot.y.max), max: plot.pixel(right.min(end), plot.y.min) },
+                area: Rectangle { min: plot.pixel(left, plot.y.max), max: plot.pixel(right, plot.y.min) },
                 columns: count,
                 cells: (0..count * self.blades).map(cell).collect(),
             });
