@@ -2,7 +2,7 @@
 
 use super::error::FilmError;
 use super::plan::{Plan, frame_name};
-use super::settings::FilmSettings;
+use super::settings::{Encoder, FilmSettings};
 use super::video::Encoding;
 use super::{FrameSource, FrameState};
 use crate::render::AdapterInfo;
@@ -58,6 +58,8 @@ pub(super) fn write(
     source: &dyn FrameSource,
     plan: &Plan,
 ) -> Result<(), FilmError> {
+    // The built-in encoder is that of the version; frames drawn without a film by several machines then have the manifest of one.
+    let film = plan.film.as_ref().filter(|_| settings.encoder != Encoder::OpenH264);
     let manifest = Manifest {
         stickslip: env!("CARGO_PKG_VERSION"),
         parameters_sha256: output.parameters_sha256(),
@@ -66,7 +68,7 @@ pub(super) fn write(
         frames_per_second: settings.frames_per_second,
         backend: &adapter.backend,
         adapter: &adapter.adapter,
-        film: plan.film.as_ref().map(|film| Film { file: &film.name, encoding: Encoding::of(settings) }),
+        film: film.map(|film| Film { file: &film.name, encoding: Encoding::of(settings) }),
         frames: plan.finished.iter().map(|(&index, sha256)| Frame::new(index, sha256, settings, source)).collect(),
     };
     let failed = |error: serde_json::Error| FilmError::Encode { index: 0, format: "JSON", reason: error.to_string() };
