@@ -75,6 +75,7 @@ pub fn engine_settings(case: &Case, sampling: Sampling) -> EngineSettings {
             Joints::Multibody => engine::Joints::Multibody,
         },
         scheme: match case.engine.scheme {
+            Scheme::AveragedFriction => engine::Scheme::AveragedFriction,
             Scheme::SecondOrder => engine::Scheme::SecondOrder,
             Scheme::Plain => engine::Scheme::Plain,
         },

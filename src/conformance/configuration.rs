@@ -61,7 +61,8 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// The second-order recipe: f64, impulse joints, own force laws, one substep, velocities predicted.
+    /// The second-order recipe with friction sampled at the steps: f64, impulse joints, own force laws, one substep, velocities predicted. Where
+    /// nothing rubs it is [`Self::DEFAULT`].
     pub const RECIPE: Self = Self {
         precision: Precision::Double,
         joints: Joints::Impulse,
@@ -69,6 +70,9 @@ impl Configuration {
         substeps: 1,
         scheme: Scheme::SecondOrder,
     };
+
+    /// The recipe as it is used unless told otherwise: friction averaged over the step.
+    pub const DEFAULT: Self = Self { scheme: Scheme::AveragedFriction, ..Self::RECIPE };
 
     /// What a user of the engine gets without thinking: f32, four substeps, velocities at face value.
     pub const ENGINE_DEFAULTS: Self = Self {
@@ -105,8 +109,8 @@ impl Configuration {
     pub fn label(self) -> String {
         let Self { precision, joints, mechanism, substeps, scheme } = self;
         let scheme = match scheme {
-            Scheme::SecondOrder => "half-step start, predicted velocity",
-            Scheme::AveragedFriction => "half-step start, predicted velocity, friction averaged over the step",
+            Scheme::SecondOrder => "half-step start, predicted velocity, friction at the step",
+            Scheme::AveragedFriction => "half-step start, predicted velocity, friction averaged",
             Scheme::LaggingDamping => "half-step start, late velocity",
             Scheme::Plain => "velocity at face value",
         };
@@ -187,8 +191,8 @@ impl Configuration {
 
 fn scheme_name(scheme: Scheme) -> &'static str {
     match scheme {
-        Scheme::SecondOrder => "recipe",
-        Scheme::AveragedFriction => "recipe, friction averaged",
+        Scheme::SecondOrder => "recipe, friction at the step",
+        Scheme::AveragedFriction => "recipe, friction averaged (default)",
         Scheme::LaggingDamping => "late velocity",
         Scheme::Plain => "face value",
     }

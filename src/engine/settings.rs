@@ -105,10 +105,11 @@ pub struct EngineSettings {
 }
 
 impl EngineSettings {
-    /// The second-order configuration: one substep, impulse joints, f64.
+    /// The second-order configuration: one substep, impulse joints, f64, friction averaged over the step.
     #[must_use]
     pub fn default_for(step: f64) -> Self {
-        Self { step, substeps: 1, precision: Precision::Double, joints: Joints::Impulse, scheme: Scheme::SecondOrder }
+        let (precision, joints, scheme) = (Precision::Double, Joints::Impulse, Scheme::AveragedFriction);
+        Self { step, substeps: 1, precision, joints, scheme }
     }
 
     /// What Rapier does unless told otherwise: steps of 1/60, 4 substeps, velocities at face value, f64.

@@ -107,12 +107,14 @@ pub enum Joints {
     Multibody,
 }
 
-/// At which instant the engine's damping forces see the velocity.
+/// What the engine's forces see of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// Leapfrog start, velocity predicted to the instant of the positions: second order with one substep.
+    /// As `second_order`, with the friction force averaged over the step: Floquet multipliers are of second order too.
     #[default]
+    AveragedFriction,
+    /// Leapfrog start, velocity predicted to the instant of the positions: second order with one substep.
     SecondOrder,
     /// The engine's velocity as it is: first order.
     Plain,

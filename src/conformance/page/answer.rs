@@ -159,7 +159,7 @@ pub(super) const MULTIBODY: &str = "Multibody joints are second order too, if th
 /// The words about the recipe.
 pub(super) const RECIPE: &str = "The second-order recipe: one substep (num_solver_iterations = 1); forces evaluated at the positions x_n; velocities started half a step back, \
      v(-1/2) = v(0) - (h/2) a(0); and the velocity in damping laws predicted to the same instant, v(n) = v(n-1/2) + (h/2) a(n-1). It is what \
-     “half-step start, predicted velocity” means here; “friction averaged” takes the mean of the friction force over the step in place of its value at x_n; “late velocity” leaves the prediction out, “face value” takes the engine's \
+     “half-step start, predicted velocity” means here; “friction averaged”, the default, takes the mean of the friction force over the step, “friction at the step” its value at x_n; “late velocity” leaves the prediction out, “face value” takes the engine's \
      velocity for the velocity, as a plain user does.";
 
 /// Formulae of numerical damping and frequency shift.

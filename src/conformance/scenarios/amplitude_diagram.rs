@@ -34,7 +34,7 @@ pub const SMALLEST: &str = "smallest_maximum";
 /// The engine's defaults but for f64, so that rounding has no part in what is seen.
 pub const DEFAULTS: Configuration = Configuration { precision: Precision::Double, ..Configuration::ENGINE_DEFAULTS };
 /// Configurations with their steps per period of the sticking in-phase mode, 2 pi.
-const SETTINGS: [(Configuration, u32); 2] = [(Configuration::RECIPE, 256), (DEFAULTS, DEFAULT_STEPS)];
+const SETTINGS: [(Configuration, u32); 2] = [(Configuration::DEFAULT, 256), (DEFAULTS, DEFAULT_STEPS)];
 /// So many of the engine's steps of 1/60 are a period within 2.4e-5.
 const DEFAULT_STEPS: u32 = 377;
 const DEFAULT_STEP: f64 = 1.0 / 60.0;

@@ -39,7 +39,10 @@ impl Overlay {
     /// Blends the items over a picture, which is opaque or has straight alpha.
     pub fn blend(&mut self, list: &DrawList, image: &mut RgbaImage) -> Result<(), RenderError> {
         if !list.background.is_transparent() {
-            return self.blend_over(&list.overlay, image);
+            self.blend_over(&list.overlay, image)?;
+            // Blending rounds the opacity of an opaque ground down, by up to 7 of 255 under several soft edges.
+            image.pixels_mut().for_each(|pixel| pixel.0[3] = 255);
+            return Ok(());
         }
         premultiply(image);
         let blended = self.blend_over(&list.overlay, image);
