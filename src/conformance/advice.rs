@@ -45,7 +45,7 @@ pub struct Advice {
     pub motion: Fewest,
 }
 
-/// Advice for every configuration that was tried on the limit cycle, in their order.
+/// Advice for every configuration that was tried on the limit cycle, the default first, then in their order.
 #[must_use]
 pub fn advice(rows: &[Row]) -> Vec<Advice> {
     let mut configurations: Vec<Configuration> = Vec::new();
@@ -55,6 +55,7 @@ pub fn advice(rows: &[Row]) -> Vec<Advice> {
             configurations.push(row.configuration);
         }
     }
+    configurations.sort_by_key(|configuration| *configuration != Configuration::DEFAULT);
     configurations.into_iter().map(|configuration| of(rows, configuration)).collect()
 }
 

@@ -173,7 +173,9 @@ impl Subject {
 }
 
 impl Row {
-    /// With the number that the equations of motion give, and how far off still counts as right.
+    /// With the number that the equations of motion give, and how far off still counts as right. A prediction that is looser than that and than the
+    /// error it predicts says nothing: the row is not run. Of a formula that is the formula's fault, and the number found stays judged against the
+    /// truth; of statistics and roundings it is the number's.
     #[must_use]
     pub fn against(mut self, exact: f64, limit: f64) -> Self {
         let deviation = self.found.map(|found| (found - exact).abs());
@@ -186,13 +188,14 @@ impl Row {
             None => Physics::NotJudged,
         };
         match (self.tolerance, self.expected) {
-            // Within so wide a tolerance neither what is predicted can be told from the truth, nor right from wrong.
             (Some(tolerance), Some(expected))
                 if self.verdict == Verdict::Passed && tolerance > limit && tolerance >= (expected - exact).abs() =>
             {
-                self.unresolved(&format!(
+                let physics = self.physics;
+                let row = self.unresolved(&format!(
                     "the tolerance {tolerance:.1e} of the prediction is wider than what counts as right, {limit:.1e}, and than the predicted error"
-                ))
+                ));
+                if row.basis == Some(Basis::Formula) { Self { physics, ..row } } else { row }
             }
             _ => self,
         }
@@ -261,9 +264,12 @@ mod tests {
 
     #[test]
     fn what_could_have_been_anything_is_not_judged() {
-        let row = judged(0.0, 0.001).against(0.0, 0.005);
+        let loose = |basis, found| Row { basis: Some(basis), ..judged(0.0, found) }.against(0.0, 0.005);
+        let row = loose(Basis::DifferenceEquation, 0.001);
         assert_eq!((row.verdict, row.physics), (Verdict::NotRun, Physics::NotJudged));
         assert!(row.reason.contains("not resolved"), "{row:?}");
+        // A loose formula leaves the number itself to be judged.
+        assert_eq!([0.001, 0.009].map(|found| loose(Basis::Formula, found).physics), [Physics::Right, Physics::Wrong]);
         // A predicted error that stands out of the tolerance is resolved, and a miss stays a miss.
         let row = judged(0.5, 0.501).against(0.0, 0.005);
         assert_eq!((row.verdict, row.physics), (Verdict::Passed, Physics::Wrong));

@@ -18,7 +18,7 @@ fn counted(report: &Report) -> String {
         "Those that do not are listed below the first table: look at them before you believe the rest. "
     };
     format!(
-        "{} numbers behave as the theory of their configuration predicts, {} do not, {} were not run. {broken}\
+        "{} numbers behave as the theory of their configuration predicts, {} do not, {} were not run or are not resolved. {broken}\
          Of the numbers that have a counterpart in the equations of motion, {} are right to 1 % and {} are wrong: a row can be exactly as \
          predicted and physically wrong.",
         tally.passed, tally.failed, tally.not_run, tally.right, tally.wrong
@@ -26,13 +26,19 @@ fn counted(report: &Report) -> String {
 }
 
 /// The configuration to use, and its steps per period: the one with all three right at the fewest, then with the motion right at the fewest.
-pub(super) fn best(report: &Report) -> Option<(&Advice, u32)> {
+fn best(report: &Report) -> Option<(&Advice, u32)> {
     let known = report.advice.iter().filter_map(|advice| Some((advice, advice.all.enough()?)));
     // No timing decides, so that the sentence repeats.
     known.min_by_key(|(advice, steps)| {
         let motion = advice.motion.enough().unwrap_or(u32::MAX);
-        (*steps, motion, advice.configuration.substeps, advice.configuration)
+        let default_first = advice.configuration != Configuration::DEFAULT;
+        (*steps, motion, default_first, advice.configuration.substeps, advice.configuration)
     })
+}
+
+/// Steps per period at which the best configuration has everything right, the motion too.
+pub(super) fn steps_for_all(report: &Report) -> Option<u32> {
+    best(report).map(|(advice, steps)| steps.max(advice.motion.enough().unwrap_or(steps)))
 }
 
 fn use_this(report: &Report) -> String {
@@ -80,18 +86,22 @@ fn defaults(report: &Report) -> Option<String> {
         }
         _ => String::new(),
     };
+    let hopf = report.rows.iter().find(|row| row.quantity == "secondary_hopf_xi1_at_default_step");
+    let hopf = hopf.and_then(|row| Some((row.found?, row.exact?))).map_or(String::new(), |(found, exact)| {
+        format!(" The limit cycle loses stability at ξ₁ = {found:.5} in place of {exact:.5}.")
+    });
     Some(format!(
         "Do not trust its defaults (f32, 4 substeps, force law evaluated once a step): at dt = 1/60 they give an undamped oscillator of frequency 1 the numerical \
          damping {found:.5} ({formula:.5} by formula), {as_predicted} and physically wrong: energy is pumped in, {:.0} % of the two-mass rig's \
-         damping ξ₂ = 0.011.{never}",
+         damping ξ₂ = 0.011.{never}{hopf}",
         100.0 * found.abs() / 0.011
     ))
 }
 
 /// What a step is in time.
 pub(super) const STEPS: &str = "Steps are counted per oscillation, because only their ratio matters. In the rig's unit of time its angular frequency is about 1 and a period about 2π: there \
-     dt = 1/60 is 377 steps per period. In a game that runs at 60 steps a second an oscillation of f Hz gets 60/f steps: 256 of them only below 0.23 Hz, and \
-     at 5 Hz no more than 12. Oscillations of 5 Hz need dt = 1/1280 s for 256 steps.";
+     dt = 1/60 is 377 steps per period. In a game that runs at 60 steps a second an oscillation of f Hz gets 60/f steps: 64 of them only below 0.94 Hz, 256 below 0.23 Hz, and \
+     at 5 Hz no more than 12. Oscillations of 5 Hz need dt = 1/320 s for 64 steps, 1/1280 s for 256.";
 
 /// What the two judgements mean.
 pub(super) const HOW_TO_READ: [&str; 5] = [
@@ -104,8 +114,8 @@ pub(super) const HOW_TO_READ: [&str; 5] = [
      is predicted is a property of the configuration; choose another one.",
     "Order: errors over a ladder of steps. The second-order recipe must show order 2 within 0.1 (0.2 where single events scatter) down to \
      the floor of rounding; other configurations the order of their difference equation over the same steps.",
-    "Not run: nobody computed it in this run, too few errors lie above the floor to show an order, or the motion is chaotic and nothing predicts \
-     the number. It counts neither as passed nor as failed.",
+    "Not run, or not resolved: nobody computed it in this run, nothing predicts the number, its prediction is looser than what counts as right, or too few errors lie \
+     above the floor to show an order. It counts neither as passed nor as failed; the reason is in the row.",
 ];
 
 /// Why the neighbours of the recipe will not do.
@@ -159,7 +169,8 @@ pub(super) const MULTIBODY: &str = "Multibody joints are second order too, if th
 /// The words about the recipe.
 pub(super) const RECIPE: &str = "The second-order recipe: one substep (num_solver_iterations = 1); forces evaluated at the positions x_n; velocities started half a step back, \
      v(-1/2) = v(0) - (h/2) a(0); and the velocity in damping laws predicted to the same instant, v(n) = v(n-1/2) + (h/2) a(n-1). It is what \
-     “half-step start, predicted velocity” means here; “friction averaged”, the default, takes the mean of the friction force over the step, “friction at the step” its value at x_n; “late velocity” leaves the prediction out, “face value” takes the engine's \
+     “half-step start, predicted velocity” means here; “friction averaged”, the default, takes the mean of the friction force from t_n - h/2 to t_n + h/2 along the elongation w s + a(n-1) s²/2, w the engine's velocity, from the slider force carried to t_n - h/2, \
+     which is then carried on with a(n) in place of a(n-1); “friction at the step” takes its value at x_n (where nothing rubs both are the same, and rows say “friction at the step”); “late velocity” leaves the prediction out, “face value” takes the engine's \
      velocity for the velocity, as a plain user does.";
 
 /// Formulae of numerical damping and frequency shift.

@@ -1,7 +1,7 @@
 //! `report.html`: one file with everything in it.
 
 use super::advice::{self, FEWEST_CAPTION};
-use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, STEPS, WHY, answer, best};
+use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, STEPS, WHY, answer, steps_for_all};
 use super::charts::{self, Chart};
 use super::diagram;
 use super::markdown::{provenance, summary};
@@ -57,7 +57,7 @@ fn why(report: &Report) -> Markup {
     html! {
         h2 #why { "Why this, and not its neighbours" }
         @for line in WHY { p { (line) } }
-        @if let Some((_, steps)) = best(report) {
+        @if let Some(steps) = steps_for_all(report) {
             p.caption { (format!("Errors at {steps} steps per period, in per cent of the quantity or of the size of the motion")) }
             (table(&advice::comparison(report, steps)))
         }

@@ -1,7 +1,7 @@
 //! `report.md`: the answer, the tables, the failures; charts are in the page.
 
 use super::advice::{self, FEWEST_CAPTION};
-use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, STEPS, WHY, answer, best};
+use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, STEPS, WHY, answer, steps_for_all};
 use super::tables::{self, Grid};
 use crate::conformance::{Changes, Report, Row};
 use std::fmt::Write;
@@ -30,7 +30,7 @@ pub fn markdown(report: &Report, changes: Option<&Changes>) -> String {
     }
     say("## Why this, and not its neighbours");
     WHY.iter().for_each(|line| say(line));
-    if let Some((_, steps)) = best(report) {
+    if let Some(steps) = steps_for_all(report) {
         say(&format!("Errors at {steps} steps per period, in per cent of the quantity or of the size of the motion:"));
         say(&grid(&advice::comparison(report, steps)));
     }

@@ -6,7 +6,7 @@
 //! loop area        4 (a - (1 + q)),  and up to 4 v_c sqrt(ms) of ringing,   v_c the speed at the corner
 //! largest force    1 + v_c sqrt(ms)
 //! held by F        slider moves F q/(1 + q);    joint friction creeps by F/(ms d wJ^2), wJ = 2 pi 1e6;    limited motor by F/1e6
-//! stick            angular frequency sqrt(1 + 1/(1 + q));    ride  1/sqrt(1 + ms/(1 - ms))
+//! stick            angular frequency sqrt(1 + 1/(1 + q));    on a spring joint sqrt(2 - (e/(1 + e))^2), see `lag`;    ride  1/sqrt(1 + ms/(1 - ms))
 //! ```
 
 use crate::conformance::linear_mechanisms::{Oscillator, damping_error};
@@ -84,12 +84,20 @@ impl Theory {
         }
     }
 
-    /// Whether the formulae, leading orders in `ws d`, hold of a slider body on a spring joint: its square is then below 1 %. Others have none of
-    /// this lag: their springs do not know the slider's mass.
-    pub fn holds(&self) -> bool {
-        self.making.spring != ElementSpring::SpringJoint
-            || self.substep().powi(2) < 0.01 * self.slider_mass
-            || self.slider_mass == 0.0
+    /// `e = d^2/ms` of a slider that its joint holds, on a spring joint: the spring joint is solved with the slider's mass behind it, which takes
+    /// the part `e/(1 + e)` off its damping and off the force that makes the slider creep.
+    fn lag(&self) -> f64 {
+        let held = matches!(self.making.mechanism, FrictionMechanism::LimitedMotor | FrictionMechanism::JointFriction);
+        if held && self.making.spring == ElementSpring::SpringJoint {
+            self.substep().powi(2) / self.slider_mass
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether steps resolve the slider's own oscillation on its spring joint, as what is said of its slip assumes.
+    pub fn resolves_the_slider(&self) -> bool {
+        self.lag() < 0.1
     }
 
     /// Whether the way a contact yields in a substep of a motion of size 0.5 is less than half a spacing of the slider's stored position,
@@ -157,7 +165,7 @@ impl Theory {
         // On an impulse joint the slider's position is stored in space, near -4, and less than half a spacing a substep is lost.
         let half_spacing = 4.0 * self.configuration.unit_roundoff();
         let lost = self.configuration.joints == Joints::Impulse && creep * self.substep() < half_spacing;
-        let creep = if lost { 0.0 } else { creep };
+        let creep = if lost { 0.0 } else { creep / (1.0 + self.lag()) };
         let settled = HELD_FORCE * self.compliance / (1.0 + self.compliance) + 0.5 * HOLDING_TIME * creep;
         // Positions are stored with the rest position of the slider, at -4: spacing 4 eps. Below 1e-8 creep takes 1e6 time units
         // for 1 % of the slip displacement.
@@ -179,7 +187,8 @@ impl Theory {
     }
 
     pub fn stick_frequency(&self) -> f64 {
-        (1.0 + 1.0 / (1.0 + self.compliance)).sqrt()
+        let lagging = self.lag() / (1.0 + self.lag());
+        (1.0 + 1.0 / (1.0 + self.compliance) - lagging * lagging).sqrt()
     }
 
     pub fn stick_frequency_tolerance(&self) -> f64 {
@@ -196,12 +205,14 @@ impl Theory {
             (FrictionMechanism::Hook, _) => false,
             (_, spring) => spring == ElementSpring::SpringJoint,
         };
-        of(LinearMechanism::Hook) + if native { of(LinearMechanism::SpringJoint) } else { of(LinearMechanism::Hook) }
+        of(LinearMechanism::Hook)
+            + if native { of(LinearMechanism::SpringJoint) / (1.0 + self.lag()) } else { of(LinearMechanism::Hook) }
     }
 
     pub fn stick_damping_tolerance(&self) -> f64 {
-        // A spring joint sees the slider's mass behind it while it is solved: (ws d)^2/(1 + (ws d)^2) of its damping.
-        let lag = self.substep().powi(2) / self.slider_mass.max(self.substep());
+        // A contact's slider on a spring joint lags too, by no more than a held one would.
+        let known = self.slider_mass == 0.0 || self.lag() > 0.0;
+        let lag = if known { 0.0 } else { self.substep().powi(2) / self.slider_mass.max(self.substep()) };
         0.02 * self.step + (self.compliance + lag) * self.step + 4e-6
     }
 
