@@ -3,7 +3,7 @@
 use super::Verdict;
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
-use crate::model::{BladedDisk, LinearMode, ModesError, NodalDiameter, OscillatorChain, TwoMassRig};
+use crate::model::{BladedDisk, LinearMode, ModesError, NodalDiameter, OscillatorChain, Stability, TwoMassRig};
 use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::{Case, Scene};
 use clap::Args;
@@ -13,7 +13,8 @@ use std::path::PathBuf;
 /// Linear modes of a chain or ring, its contacts stuck: damping by nodal diameter, localisation, flutter margin.
 ///
 /// Of a tuned ring the modes are waves. Otherwise the nodal diameter is that of the wave with the largest share in the mode, and null for open
-/// chains. Damping is minus twice the real part of the eigenvalue; the flutter margin is the least of all, negative where the disk flutters.
+/// chains. Damping is minus twice the real part of the eigenvalue; the flutter margin is the least of all: negative where the disk flutters,
+/// neutral within 1e-12 of the largest frequency, which is rounding.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip modes scenes/disk_forward_wave.toml --plot s-curve.svg")]
 pub struct ModesArgs {
@@ -44,12 +45,14 @@ pub fn run(args: &ModesArgs) -> anyhow::Result<Verdict> {
         None => rows_of_chain(TwoMassRig::new(case.parameters)?.chain(), !args.slipping, None)?,
     };
     let margin = rows.iter().map(|row| row.mode.damping).fold(f64::INFINITY, f64::min);
+    let stability = Stability::of(&rows.iter().map(|row| row.mode).collect::<Vec<_>>());
     args.plot.draw(|| chart(&case, &rows))?;
     if args.common.json {
         let document = Document::new("modes", parameters(&case, args))
             .with("modes", json!(rows.iter().map(json_of).collect::<Vec<_>>()))
             .with("flutter_margin", json!(margin))
-            .with("flutter", json!(margin < 0.0));
+            .with("flutter", json!(stability == Stability::Flutter))
+            .with("stability", json!(stability));
         print(&document.text()?)?;
         return Ok(Verdict::Done);
     }
@@ -63,7 +66,12 @@ pub fn run(args: &ModesArgs) -> anyhow::Result<Verdict> {
             row.participation
         ))?;
     }
-    print(&format!("flutter margin {margin:+.9}: {}", if margin < 0.0 { "flutter" } else { "stable" }))?;
+    let word = match stability {
+        Stability::Stable => "stable",
+        Stability::Neutral => "neutral",
+        Stability::Flutter => "flutter",
+    };
+    print(&format!("flutter margin {margin:+.9}: {word}"))?;
     Ok(Verdict::Done)
 }
 
