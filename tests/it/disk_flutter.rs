@@ -182,11 +182,14 @@ fn motions_too_short_to_measure_and_seeds_beyond_the_last_are_refused() {
 
 #[test]
 fn a_draw_that_is_no_disk_is_named_by_its_seed() {
-    // A scatter of 100 % against the half that the contacts take: nearly every draw has a blade without stiffness, the scene's own among them.
-    let disk = BladedDisk { mistuning: Some(Mistuning::Normal { standard_deviation: 1.0, seed: 1 }), ..slow().disk };
-    let error = MonteCarlo { disk, samples: 1, first_seed: 77, ..slow() }.run(None, |_, _| {}).unwrap_err();
+    // Contacts take half of a blade's stiffness: a deviation below -1/2 leaves none, with this scatter in two of three draws.
+    let mistuning = Mistuning::Normal { standard_deviation: 1.0, seed: 1 };
+    let fails = |seed: &u64| mistuning.with_seed(*seed).deviations(3).unwrap().iter().any(|d| *d < -0.5);
+    let seed = (77..).find(fails).unwrap();
+    let disk = BladedDisk { mistuning: Some(mistuning.clone()), ..slow().disk };
+    let error = MonteCarlo { disk, samples: 1, first_seed: seed, ..slow() }.run(None, |_, _| {}).unwrap_err();
     let message = error.to_string();
-    assert!(message.contains("seed 77") && message.contains("stiffness of blade"), "{message}");
+    assert!(message.contains(&format!("seed {seed}:")) && message.contains("stiffness of blade"), "{message}");
 }
 
 #[test]
