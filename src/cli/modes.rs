@@ -3,7 +3,9 @@
 use super::Verdict;
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
-use crate::model::{BladedDisk, LinearMode, ModesError, NodalDiameter, OscillatorChain, TwoMassRig};
+use crate::model::{
+    BladedDisk, LinearMode, ModesError, NodalDiameter, OscillatorChain, Stability, TravelDirection, TwoMassRig,
+};
 use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::{Case, Scene};
 use clap::Args;
@@ -13,7 +15,8 @@ use std::path::PathBuf;
 /// Linear modes of a chain or ring, its contacts stuck: damping by nodal diameter, localisation, flutter margin.
 ///
 /// Of a tuned ring the modes are waves. Otherwise the nodal diameter is that of the wave with the largest share in the mode, and null for open
-/// chains. Damping is minus twice the real part of the eigenvalue; the flutter margin is the least of all, negative where the disk flutters.
+/// chains; where the opposite wave has the same share, the mode stands and its nodal diameter has no sign. Damping is minus twice the real part of the eigenvalue; the flutter margin is the least of all: negative where the disk flutters,
+/// neutral within 1e-12 of the largest frequency, which is rounding.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip modes scenes/disk_forward_wave.toml --plot s-curve.svg")]
 pub struct ModesArgs {
@@ -30,6 +33,7 @@ pub struct ModesArgs {
 /// One mode as it is shown.
 struct Row {
     wave: Option<NodalDiameter>,
+    direction: Option<TravelDirection>,
     mode: LinearMode,
     participation: f64,
     share: Option<f64>,
@@ -44,12 +48,14 @@ pub fn run(args: &ModesArgs) -> anyhow::Result<Verdict> {
         None => rows_of_chain(TwoMassRig::new(case.parameters)?.chain(), !args.slipping, None)?,
     };
     let margin = rows.iter().map(|row| row.mode.damping).fold(f64::INFINITY, f64::min);
+    let stability = Stability::of(&rows.iter().map(|row| row.mode).collect::<Vec<_>>());
     args.plot.draw(|| chart(&case, &rows))?;
     if args.common.json {
         let document = Document::new("modes", parameters(&case, args))
             .with("modes", json!(rows.iter().map(json_of).collect::<Vec<_>>()))
             .with("flutter_margin", json!(margin))
-            .with("flutter", json!(margin < 0.0));
+            .with("flutter", json!(stability == Stability::Flutter))
+            .with("stability", json!(stability));
         print(&document.text()?)?;
         return Ok(Verdict::Done);
     }
@@ -63,12 +69,17 @@ pub fn run(args: &ModesArgs) -> anyhow::Result<Verdict> {
             row.participation
         ))?;
     }
-    print(&format!("flutter margin {margin:+.9}: {}", if margin < 0.0 { "flutter" } else { "stable" }))?;
+    let word = match stability {
+        Stability::Stable => "stable",
+        Stability::Neutral => "neutral",
+        Stability::Flutter => "flutter",
+    };
+    print(&format!("flutter margin {margin:+.9}: {word}"))?;
     Ok(Verdict::Done)
 }
 
 fn direction(row: &Row) -> String {
-    row.wave.map_or_else(|| "-".to_owned(), |wave| json!(wave.direction()).as_str().unwrap_or_default().to_owned())
+    row.direction.map_or_else(|| "-".to_owned(), |way| json!(way).as_str().unwrap_or_default().to_owned())
 }
 
 fn parameters(case: &Case, args: &ModesArgs) -> Value {
@@ -79,7 +90,7 @@ fn parameters(case: &Case, args: &ModesArgs) -> Value {
 fn json_of(row: &Row) -> Value {
     json!({
         "nodal_diameter": row.wave.map(NodalDiameter::signed),
-        "direction": row.wave.map(NodalDiameter::direction),
+        "direction": row.direction,
         "angular_frequency": row.mode.angular_frequency,
         "damping": row.mode.damping,
         "participation": row.participation,
@@ -91,6 +102,7 @@ fn rows_of_disk(disk: &BladedDisk, stuck: bool) -> Result<Vec<Row>, ModesError> 
     if disk.is_cyclic()? && disk.deviations()?.iter().all(|d| *d == 0.0) {
         let row = |found: crate::model::TunedMode| Row {
             wave: Some(found.wave),
+            direction: Some(found.wave.direction()),
             mode: found.mode,
             participation: 1.0,
             share: Some(1.0),
@@ -108,9 +120,14 @@ fn rows_of_chain(chain: &OscillatorChain, stuck: bool, blades: Option<(usize, bo
     let (blades, ring) = blades.unwrap_or((chain.oscillators(), false));
     let shapes = chain.mode_shapes(&vec![stuck; chain.sliders()])?;
     let row = |shape: &crate::model::ModeShape| {
-        let wave = ring.then(|| shape.dominant_wave(blades));
+        let direction = ring.then(|| shape.direction(blades));
+        let standing = direction == Some(TravelDirection::Standing);
+        let dominant = ring.then(|| shape.dominant_wave(blades));
+        // Of a standing mode, rounding alone decides between n and -n.
+        let wave = dominant.map(|n| if standing { NodalDiameter::new(n.signed().abs(), blades) } else { n });
         Row {
             wave,
+            direction,
             mode: shape.mode,
             participation: shape.participation(blades),
             share: wave.map(|wave| shape.wave_shares(blades)[wave.index()]),

@@ -24,7 +24,7 @@ const FOLLOWED_HARMONICS: usize = 64;
 #[derive(Debug, Clone)]
 pub struct DiskCycle {
     pub orbit: FlowOrbit,
-    /// Largest displacement of each blade.
+    /// Of each blade, half the way between its least and its largest displacement: what stuck contacts hold it off its rest is left out.
     pub amplitudes: Vec<f64>,
     /// Contacts that never slip.
     pub stuck_contacts: usize,

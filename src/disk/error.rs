@@ -43,6 +43,10 @@ pub enum DiskError {
     Orbit(#[from] crate::orbit::OrbitError),
     #[error("motion of the disk: {0}")]
     Flow(#[from] crate::exact::ExactError),
+    #[error("the disk of seed {seed}: {source}. Begin after it with --seed, or take a smaller scatter")]
+    Sample { seed: u64, source: Box<DiskError> },
+    #[error("{samples} samples from seed {first} on reach beyond the last seed {}: take an earlier one", u64::MAX)]
+    Seeds { first: u64, samples: usize },
     #[error(transparent)]
     Store(#[from] crate::store::StoreError),
     #[error("the record {name} cannot be read back: {reason}. Remove it, or start over with --force")]

@@ -5,11 +5,12 @@
 //!   by interblade phase angle (`ring`).
 //! - [`settled_cycle`], [`mistuned_wave`]: limit cycles of mistuned disks (`cycle`).
 //! - [`wave_amplitudes`]: the spectrum by nodal diameter (`spectrum`).
-//! - [`MonteCarlo`]: flutter of randomly mistuned disks, resumable (`monte_carlo`).
+//! - [`MonteCarlo`]: flutter of randomly mistuned disks, resumable (`monte_carlo`, `flutter_summary`).
 
 mod balance;
 mod cycle;
 mod error;
+mod flutter_summary;
 mod monte_carlo;
 mod odd_series;
 mod one_sector;
@@ -19,7 +20,8 @@ mod spectrum;
 
 pub use cycle::{DiskCycle, cycle_near, mistuned_wave, participation, settled_cycle};
 pub use error::DiskError;
-pub use monte_carlo::{Fate, FateCounts, MonteCarlo, SampleRow, Summary};
+pub use flutter_summary::{FateCounts, Summary};
+pub use monte_carlo::{Fate, MonteCarlo, SampleRow};
 pub use one_sector::{DESCRIBING_FUNCTION, MANY_HARMONICS, TravellingWave};
 pub use ring::{RingWave, WaveMultiplier, blade_amplitudes, largest_by_wave, ring_wave, wave_multipliers};
 pub use spectrum::{slow_wave_amplitudes, strongest, wave_amplitudes, wave_amplitudes_at, wave_frequencies};

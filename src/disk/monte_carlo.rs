@@ -5,10 +5,14 @@
 //!
 //! # When a motion has settled
 //!
-//! A bounded motion has settled when the largest amplitude of any blade and the mean over the blades of their largest amplitudes both differ by
-//! less than 1 % between the last two tenths. While it has not, it is followed to four times its length, up to `longest`: the windows
+//! The amplitude of a blade is half the way between its least and its largest displacement in a tenth of the motion: contacts that stick keep
+//! static forces, and the displacement these hold is no motion.
+//!
+//! A bounded motion has settled when contacts slip in the last tenth, and the largest amplitude of any blade and the mean over the blades both
+//! differ by less than 1 % between the last two tenths. An unstable motion that does not slip still grows, however slowly: nothing holds it yet.
+//! While a motion has not settled, it is followed to four times its length, up to `longest`: the windows
 //! grow with it, so that a slow beat, which is no settling, fits in. What has not settled by then counts apart and enters no quantile.
-//! A linearly stable motion whose contacts all stick in the last tenth only decays: it needs no settling.
+//! A motion that is linearly not unstable and whose contacts all stick in the last tenth does not grow: it needs no settling.
 //!
 //! Every sample depends on its seed alone, so the result is the same on any number of threads and after any interruption.
 
@@ -16,7 +20,7 @@ use super::cycle::participation;
 use super::error::DiskError;
 use crate::dynamics::{Outcome, Sampling, State};
 use crate::exact::SparseFlow;
-use crate::model::{BladedDisk, ContactState, Mistuning, ParameterError, Range};
+use crate::model::{BladedDisk, ContactState, Mistuning, ParameterError, Range, Stability};
 use crate::store::{OutputDir, read_whole};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -31,6 +35,10 @@ const PER_PERIOD: f64 = 64.0;
 const TRANSIENT: f64 = 0.8;
 /// Largest relative change between the last two tenths of a settled motion.
 const SETTLED: f64 = 0.01;
+/// Least number of periods: a tenth of them must hold a whole oscillation, and then some.
+const FEWEST_PERIODS: f64 = 20.0;
+/// A stage is left out where the longest motion is not this many times as long: its windows would overlap those of the last stage.
+const WORTH_A_STAGE: f64 = 1.0 / TRANSIENT;
 /// A motion that has not settled is made this many times as long.
 const LENGTHENING: f64 = 4.0;
 /// Keeps the seeds of displacements apart from those of stiffnesses.
@@ -43,7 +51,7 @@ pub struct MonteCarlo {
     pub disk: BladedDisk,
     pub samples: usize,
     pub first_seed: u64,
-    /// Length of each motion at first, in periods 2 pi of a blade.
+    /// Length of each motion at first, in periods 2 pi of a blade, at least 20.
     pub periods: f64,
     /// Length up to which motions that have not settled are followed, at least `periods`.
     pub longest: f64,
@@ -55,9 +63,9 @@ pub struct MonteCarlo {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fate {
-    /// Linearly stable, and no contact slips at the end.
+    /// Linearly stable or neutral, and no contact slips at the end.
     Stable,
-    /// Linearly unstable or slipping at the end, and bounded: friction holds the flutter.
+    /// Linearly unstable or slipping at the end, and bounded so far; friction holds it where it has settled.
     Flutter,
     Diverged,
 }
@@ -66,50 +74,30 @@ pub enum Fate {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SampleRow {
     pub seed: u64,
-    /// Least damping of all modes with stuck contacts; negative: linear flutter.
+    /// Least damping of all modes with stuck contacts.
     pub least_damping: f64,
+    /// What it says: negative beyond rounding is linear flutter.
+    pub linear: Stability,
     pub fate: Fate,
     /// Periods followed.
     pub periods: f64,
+    /// Whether a contact slips in the last tenth; not looked at, and false, where the motion diverges before.
+    pub slips: bool,
     /// Whether the amplitudes are those the motion keeps; true of stable and diverged ones, which have none.
     pub settled: bool,
-    /// Largest amplitude of any blade; of a diverged motion the amplitude bound.
+    /// Largest amplitude of any blade, half its range of displacements; of a diverged motion the amplitude bound.
     pub amplitude: f64,
-    /// Mean over the blades of their largest amplitudes.
+    /// Mean over the blades of their amplitudes.
     pub mean_amplitude: f64,
     /// `(sum a_j^2)^2 / (N sum a_j^4)`: 1 where all blades move alike, 1/N where one moves alone.
     pub participation: f64,
-}
-
-/// How many samples met each fate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct FateCounts {
-    pub stable: usize,
-    /// Settled ones.
-    pub flutter: usize,
-    /// Bounded by friction, but not settled within the longest time.
-    pub unsettled: usize,
-    pub diverged: usize,
-}
-
-/// What the samples say together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Summary {
-    pub fates: FateCounts,
-    /// Samples with negative least damping over all samples, and its standard error.
-    pub probability_of_linear_flutter: f64,
-    pub standard_error: f64,
-    /// 5, 25, 50, 75, 95 % quantiles of the amplitude of settled samples that flutter; empty if none does.
-    pub amplitude_quantiles: Vec<f64>,
-    /// Samples by the number of periods after which they had settled, diverged or were given up: periods and count.
-    pub lengths: Vec<(f64, usize)>,
 }
 
 impl MonteCarlo {
     /// All samples in order of seed. With `record`, finished blocks are kept there and not computed again.
     ///
     /// # Errors
-    /// [`DiskError::Parameter`] for numbers out of range and a mistuning that is not random, the first failure of a sample otherwise,
+    /// [`DiskError::Parameter`] for numbers out of range and a mistuning that is not random, [`DiskError::Seeds`], [`DiskError::Sample`] of a sample that fails,
     /// and [`DiskError::Store`] and [`DiskError::Record`] of the record.
     pub fn run(
         &self,
@@ -129,19 +117,29 @@ impl MonteCarlo {
         Ok(blocks.concat())
     }
 
-    fn validate(&self) -> Result<(), ParameterError> {
+    fn validate(&self) -> Result<(), DiskError> {
         Range::Positive.check("samples", self.samples as f64)?;
         Range::Positive.check("periods", self.periods)?;
+        if self.periods < FEWEST_PERIODS {
+            let allowed = "at least 20: amplitudes are measured over tenths of the motion";
+            return Err(out_of_range("periods", self.periods, allowed));
+        }
         Range::Positive.check("start", self.start)?;
         if !(self.longest >= self.periods && self.longest.is_finite()) {
             let allowed = "finite and at least the number of periods";
-            return Err(ParameterError::OutOfRange { field: "longest".to_owned(), found: self.longest, allowed });
+            return Err(out_of_range("longest", self.longest, allowed));
         }
         if !self.disk.mistuning.as_ref().is_some_and(Mistuning::is_random) {
             let allowed = "`normal` or `uniform`: give [disk.mistuning] one of these kinds";
-            return Err(ParameterError::OutOfRange { field: "mistuning".to_owned(), found: 0.0, allowed });
+            return Err(out_of_range("mistuning", 0.0, allowed));
         }
-        self.disk.chain().map(|_| ())
+        if self.first_seed.checked_add(self.samples as u64 - 1).is_none() {
+            return Err(DiskError::Seeds { first: self.first_seed, samples: self.samples });
+        }
+        // The width of the scatter; the draw of the scene's own seed is none of the samples.
+        self.disk.deviations()?;
+        self.disk.tuned().chain()?;
+        Ok(())
     }
 
     fn block(&self, block: usize, record: Option<&OutputDir>) -> Result<Vec<SampleRow>, DiskError> {
@@ -154,7 +152,8 @@ impl MonteCarlo {
                 .map_err(|error| DiskError::Record { name: name.clone(), reason: error.to_string() });
         }
         let seeds = (block * BLOCK..self.samples.min((block + 1) * BLOCK)).map(|i| self.first_seed + i as u64);
-        let rows: Vec<SampleRow> = seeds.map(|seed| self.sample(seed)).collect::<Result<_, _>>()?;
+        let sample = |seed| self.sample(seed).map_err(|source| DiskError::Sample { seed, source: Box::new(source) });
+        let rows: Vec<SampleRow> = seeds.map(sample).collect::<Result<_, _>>()?;
         if let Some(directory) = record {
             directory.write(&name, "", |file| {
                 serde_json::to_writer(&mut *file, &rows)?;
@@ -174,24 +173,24 @@ impl MonteCarlo {
         let chain = disk.chain()?;
         let modes = chain.linear_modes(&vec![true; chain.sliders()])?;
         let least_damping = modes.iter().map(|mode| mode.damping).fold(f64::INFINITY, f64::min);
+        let linear = Stability::of(&modes);
         let displacements = Mistuning::Uniform { half_width: self.start, seed: seed ^ START_STREAM };
         let mut start = State::rest(&chain);
         start.positions[..disk.sectors].copy_from_slice(&displacements.deviations(disk.sectors)?);
-        self.follow(&SparseFlow::new(&chain), start, Fixed { seed, least_damping, blades: disk.sectors })
+        self.follow(&SparseFlow::new(&chain), start, Fixed { seed, least_damping, linear, blades: disk.sectors })
     }
 
     /// The motion in stages, each to `LENGTHENING` times the length of the one before.
     fn follow(&self, flow: &SparseFlow, start: State, fixed: Fixed) -> Result<SampleRow, DiskError> {
-        let (mut state, mut known, mut periods) = (start, 0.0, self.periods);
+        let (mut state, mut known, mut periods) = (start, 0.0, self.stage(self.periods));
         loop {
-            let mut tenths = Tenths { blades: vec![[0.0; 2]; fixed.blades], slips: false };
+            let mut tenths = Tenths { blades: vec![[Extent::NONE; 2]; fixed.blades], slips: false };
             let end = periods * TAU;
             let before = flow.advance(&state, (TRANSIENT * end - known).max(0.0))?;
             if before.outcome != Outcome::Completed {
                 return Ok(tenths.row(&fixed, periods, before.outcome));
             }
-            // The windows of a stage that is hardly longer than the last may have begun before it: they begin with it then.
-            let length = end - known.max(TRANSIENT * end);
+            let length = (1.0 - TRANSIENT) * end;
             let sampling = Sampling { interval: TAU / PER_PERIOD, t_end: length };
             let see = |t: f64, state: &State, contacts: &[ContactState]| tenths.see(t > 0.5 * length, state, contacts);
             let arrival = flow.observe(&before.state, sampling, see)?;
@@ -200,8 +199,13 @@ impl MonteCarlo {
                 return Ok(row);
             }
             (state, known) = (arrival.state, end);
-            periods = (LENGTHENING * periods).min(self.longest);
+            periods = self.stage(LENGTHENING * periods);
         }
+    }
+
+    /// Length of a stage: the wanted one, or the longest if that is hardly longer or shorter.
+    fn stage(&self, wanted: f64) -> f64 {
+        if WORTH_A_STAGE * wanted > self.longest { self.longest } else { wanted }
     }
 }
 
@@ -209,30 +213,54 @@ impl MonteCarlo {
 struct Fixed {
     seed: u64,
     least_damping: f64,
+    linear: Stability,
     blades: usize,
 }
 
-/// Largest |x| of each blade in the last but one and the last tenth of a motion.
+/// Least and largest displacement.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
+    low: f64,
+    high: f64,
+}
+
+impl Extent {
+    const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+
+    fn add(&mut self, x: f64) {
+        (self.low, self.high) = (self.low.min(x), self.high.max(x));
+    }
+
+    /// Amplitude about the middle; 0 where nothing was seen.
+    fn amplitude(self) -> f64 {
+        (0.5 * (self.high - self.low)).max(0.0)
+    }
+}
+
+/// How far each blade moves in the last but one and the last tenth of a motion, and whether contacts slip in the last.
 struct Tenths {
-    blades: Vec<[f64; 2]>,
+    blades: Vec<[Extent; 2]>,
     slips: bool,
 }
 
 impl Tenths {
     fn see(&mut self, last: bool, state: &State, contacts: &[ContactState]) {
-        let tenth = usize::from(last);
-        for (largest, x) in self.blades.iter_mut().zip(&state.positions) {
-            largest[tenth] = largest[tenth].max(x.abs());
+        for (extents, x) in self.blades.iter_mut().zip(&state.positions) {
+            extents[usize::from(last)].add(*x);
         }
         self.slips |= last && contacts.iter().any(|contact| !contact.is_stick());
     }
 
+    fn amplitudes(&self, tenth: usize) -> impl Iterator<Item = f64> {
+        self.blades.iter().map(move |blade| blade[tenth].amplitude())
+    }
+
     fn largest(&self, tenth: usize) -> f64 {
-        self.blades.iter().map(|b| b[tenth]).fold(0.0, f64::max)
+        self.amplitudes(tenth).fold(0.0, f64::max)
     }
 
     fn mean(&self, tenth: usize) -> f64 {
-        self.blades.iter().map(|b| b[tenth]).sum::<f64>() / self.blades.len() as f64
+        self.amplitudes(tenth).sum::<f64>() / self.blades.len() as f64
     }
 
     fn has_settled(&self) -> bool {
@@ -241,19 +269,21 @@ impl Tenths {
     }
 
     fn row(&self, fixed: &Fixed, periods: f64, outcome: Outcome) -> SampleRow {
-        let Fixed { seed, least_damping, .. } = *fixed;
+        let Fixed { seed, least_damping, linear, .. } = *fixed;
         let (fate, amplitude) = match outcome {
             Outcome::Diverged { bound, .. } => (Fate::Diverged, bound),
-            Outcome::Completed if least_damping >= 0.0 && !self.slips => (Fate::Stable, self.largest(1)),
+            Outcome::Completed if linear != Stability::Flutter && !self.slips => (Fate::Stable, self.largest(1)),
             Outcome::Completed => (Fate::Flutter, self.largest(1)),
         };
-        let amplitudes: Vec<f64> = self.blades.iter().map(|blade| blade[1]).collect();
+        let amplitudes: Vec<f64> = self.amplitudes(1).collect();
         SampleRow {
             seed,
             least_damping,
+            linear,
             fate,
             periods,
-            settled: fate != Fate::Flutter || self.has_settled(),
+            slips: self.slips,
+            settled: fate != Fate::Flutter || (self.slips && self.has_settled()),
             amplitude,
             mean_amplitude: self.mean(1),
             participation: participation(&amplitudes),
@@ -261,36 +291,6 @@ impl Tenths {
     }
 }
 
-impl Summary {
-    /// Of at least one sample; all zero for none.
-    #[must_use]
-    pub fn of(rows: &[SampleRow]) -> Self {
-        let count = |fate, settled| rows.iter().filter(|row| row.fate == fate && row.settled == settled).count();
-        let all = rows.len().max(1) as f64;
-        let p = rows.iter().filter(|row| row.least_damping < 0.0).count() as f64 / all;
-        let fluttering = rows.iter().filter(|row| row.fate == Fate::Flutter && row.settled);
-        let mut amplitudes: Vec<f64> = fluttering.map(|row| row.amplitude).collect();
-        amplitudes.sort_by(f64::total_cmp);
-        let quantile = |q: f64| amplitudes[(q * (amplitudes.len() - 1) as f64).round() as usize];
-        let quantiles = [0.05, 0.25, 0.5, 0.75, 0.95];
-        Self {
-            fates: FateCounts {
-                stable: count(Fate::Stable, true),
-                flutter: count(Fate::Flutter, true),
-                unsettled: count(Fate::Flutter, false),
-                diverged: count(Fate::Diverged, true),
-            },
-            probability_of_linear_flutter: p,
-            standard_error: (p * (1.0 - p) / all).sqrt(),
-            amplitude_quantiles: if amplitudes.is_empty() { vec![] } else { quantiles.map(quantile).to_vec() },
-            lengths: lengths(rows),
-        }
-    }
-}
-
-/// Rows by the number of periods followed, in rising order.
-fn lengths(rows: &[SampleRow]) -> Vec<(f64, usize)> {
-    let mut periods: Vec<f64> = rows.iter().map(|row| row.periods).collect();
-    periods.sort_by(f64::total_cmp);
-    periods.chunk_by(|a, b| a == b).map(|equal| (equal[0], equal.len())).collect()
+fn out_of_range(field: &str, found: f64, allowed: &'static str) -> DiskError {
+    ParameterError::OutOfRange { field: field.to_owned(), found, allowed }.into()
 }

@@ -25,7 +25,7 @@ use std::f64::consts::TAU;
 pub struct RingWave {
     pub wave: NodalDiameter,
     pub orbit: FlowOrbit,
-    /// Largest displacement of any blade on the orbit.
+    /// Largest amplitude of any blade on the orbit.
     pub amplitude: f64,
     /// Largest difference between blades, each seen a phase angle after the one before, in units of displacement.
     pub asymmetry: f64,
@@ -55,8 +55,8 @@ pub fn ring_wave(flow: &SparseFlow, estimate: &TravellingWave) -> Result<RingWav
     Ok(RingWave { wave: estimate.wave, orbit, amplitude: high, asymmetry: high - low })
 }
 
-/// Largest |x| of each blade over one period of an orbit, from the dense motion: the best of 256 samples, then the zero of the velocity
-/// beside it by bisection.
+/// Amplitude of each blade over one period of an orbit, half the way between its least and its largest displacement: contacts that never slip may
+/// hold a blade off its rest, which is no motion. Of the dense motion, the best of 256 samples, then the zero of the velocity beside it by bisection.
 ///
 /// # Errors
 /// [`DiskError::Flow`].
@@ -68,19 +68,18 @@ pub fn blade_amplitudes(flow: &SparseFlow, orbit: &FlowOrbit, blades: usize) -> 
     let at = |time: f64| motion.state_at(time).map(|instant| instant.state);
     let step = orbit.period / SAMPLES as f64;
     let samples: Vec<State> = (0..=SAMPLES + 1).map(|n| at(n as f64 * step)).collect::<Result<_, _>>()?;
-    (0..blades)
-        .map(|j| {
-            let size = |n: &usize| samples[*n].positions[j].abs();
-            let best = (1..=SAMPLES).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(1);
-            let (mut low, mut high) = ((best - 1) as f64 * step, (best + 1) as f64 * step);
-            let sign = samples[best - 1].velocities[j].signum();
-            for _ in 0..50 {
-                let middle = 0.5 * (low + high);
-                if at(middle)?.velocities[j] * sign > 0.0 { low = middle } else { high = middle }
-            }
-            Ok(at(0.5 * (low + high))?.positions[j].abs())
-        })
-        .collect()
+    // Largest sign * x_j.
+    let peak = |j: usize, sign: f64| -> Result<f64, DiskError> {
+        let height = |n: &usize| sign * samples[*n].positions[j];
+        let best = (1..=SAMPLES).max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(1);
+        let (mut low, mut high) = ((best - 1) as f64 * step, (best + 1) as f64 * step);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if sign * at(middle)?.velocities[j] > 0.0 { low = middle } else { high = middle }
+        }
+        Ok(sign * at(0.5 * (low + high))?.positions[j])
+    };
+    (0..blades).map(|j| Ok(0.5 * (peak(j, 1.0)? + peak(j, -1.0)?))).collect()
 }
 
 /// Floquet multipliers of the wave, grouped by the interblade phase angle of the perturbation, largest first; zeros of slipping contacts

@@ -1,6 +1,7 @@
 //! Amplitudes of the waves of a ring at an instant, and over time.
 //!
-//! Formula and its error: [`Spectrum`].
+//! Formula and its error: [`Spectrum`]. The sums are of displacements at an instant: a static one, held by contacts that stick, stands in them as
+//! if it swung.
 
 use super::error::DiskError;
 use crate::dynamics::State;

@@ -26,7 +26,7 @@ pub use disk::{
 pub use energy::{EnergyLedger, Works};
 pub use harmonic::{HarmonicEstimate, sticking_angle};
 pub use jenkins::{Attachment, ContactState, Direction, JenkinsElement};
-pub use modes::{LinearMode, ModesError};
+pub use modes::{LinearMode, ModesError, Stability};
 pub use parameter::RigParameter;
 pub use perturbation::AnalyticHopf;
 pub use prescribed::PrescribedMotion;

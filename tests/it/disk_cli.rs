@@ -51,6 +51,17 @@ fn waves_and_motions_are_printed_and_written() {
     // The wave with the strongest excitation is stable, backward waves have no cycle.
     assert!(stable.contains(&3), "{stable:?}");
     assert!(waves.iter().all(|wave| wave["nodal_diameter"].as_i64() >= Some(0) || wave["limit_cycle"].is_null()));
+    // Multipliers of real orbits are conjugate: with the wave m, its mirror image 2 n - m grows as well.
+    let mut pairs = 0;
+    for wave in waves.iter().filter(|wave| wave["limit_cycle"]["stability"] == "unstable") {
+        let n = wave["nodal_diameter"].as_i64().unwrap();
+        let fastest = wave["limit_cycle"]["fastest"]["nodal_diameters"].as_array().unwrap();
+        for m in fastest.iter().map(|m| m.as_i64().unwrap()) {
+            assert!(fastest.iter().any(|other| (other.as_i64().unwrap() - (2 * n - m)).rem_euclid(12) == 0), "{wave}");
+        }
+        pairs += usize::from(fastest.len() == 2);
+    }
+    assert!(pairs > 0);
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let args = ["disk", "simulate", &scene("disk_competition"), "--t-end", "300", "--json", "-o", &path("w.csv")];
@@ -121,4 +132,48 @@ fn a_killed_monte_carlo_goes_on_to_the_same_result() {
     assert!(flutter(&whole).status().unwrap().success());
     let bytes = |folder: &Path| std::fs::read(folder.join("samples.json")).unwrap();
     assert_eq!(bytes(&killed), bytes(&whole));
+}
+
+fn written(folder: &Path, text: &str) -> String {
+    let path = folder.join("scene.toml");
+    std::fs::write(&path, format!("title = \"x\"\n[disk]\n{text}")).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_ring_of_two_is_sent_to_chains() {
+    let folder = tempfile::tempdir().unwrap();
+    refused(&["modes", &written(folder.path(), "sectors = 2\ncoupling = 0.1\n")], &["topology = \"chain\""]);
+}
+
+#[test]
+fn uncoupled_blades_have_equal_cycles_and_their_waves_are_listed_without_wrong_advice() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = written(
+        folder.path(),
+        "sectors = 6\ncoupling = 0.0\n[[disk.friction]]\nplace = \"foot\"\nstiffness = 0.5\n[disk.aerodynamics]\n\
+         given = \"coefficients\"\ncoefficients = [{ offset = 0, imaginary = -0.02 }]\n",
+    );
+    let json = document(&["disk", "waves", &path, "--json"]);
+    let waves = json["waves"].as_array().unwrap();
+    assert_eq!(waves.len(), 6);
+    for wave in waves {
+        // Blades that do not know of each other may shift in phase at no cost: no wave is stable, none unstable.
+        let reason = wave["reason"].as_str().unwrap_or_default();
+        assert!(wave["limit_cycle"]["stability"] == "neutral" || reason.contains("without coupling"), "{wave}");
+    }
+}
+
+#[test]
+fn without_air_modes_stand_and_their_margin_is_neutral() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = written(
+        folder.path(),
+        "sectors = 9\ncoupling = 0.1\n[disk.mistuning]\nkind = \"normal\"\nstandard_deviation = 0.02\nseed = 3\n",
+    );
+    let json = document(&["modes", &path, "--json"]);
+    assert_eq!((&json["stability"], &json["flutter"]), (&"neutral".into(), &false.into()));
+    for mode in json["modes"].as_array().unwrap() {
+        assert!(mode["direction"] == "standing" && mode["nodal_diameter"].as_i64() >= Some(0), "{mode}");
+    }
 }

@@ -1,14 +1,17 @@
 //! Limit cycles of mistuned disks: the tuned limit, small mistuning as a perturbation, following a wave as mistuning grows.
 
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use stickslip::disk::{
-    DiskCycle, DiskError, MANY_HARMONICS, TravellingWave, mistuned_wave, participation, ring_wave, settled_cycle,
+    DiskCycle, DiskError, MANY_HARMONICS, TravellingWave, blade_amplitudes, mistuned_wave, participation, ring_wave,
+    settled_cycle,
 };
 use stickslip::dynamics::{Sampling, State};
 use stickslip::exact::SparseFlow;
 use stickslip::model::{
     Aerodynamics, BladedDisk, ContactPlace, FrictionContacts, InfluenceCoefficient, Mistuning, NodalDiameter,
 };
+use stickslip::orbit::{FlowOrbit, SpatialClosure};
 
 const N: usize = 8;
 
@@ -141,4 +144,25 @@ fn an_unstable_cycle_is_left_at_the_rate_of_its_multiplier() {
 #[test]
 fn waves_that_do_not_exist_cannot_be_followed() {
     assert!(matches!(mistuned_wave(&ring(0.01, third), wave(-2), 4), Err(DiskError::NoWave { wave: -2, .. })));
+}
+
+#[test]
+fn the_amplitude_of_a_blade_leaves_out_the_displacement_that_a_stuck_contact_holds() {
+    // An uncoupled blade let go at x_0 with a contact of zero force there swings, without slip, about x_0/2 with amplitude x_0/2 and frequency 1, as
+    // the contact has half of its stiffness.
+    let disk = BladedDisk {
+        friction: vec![FrictionContacts::everywhere(ContactPlace::Foot, 0.5)],
+        ..BladedDisk::ring(3, 0.0)
+    };
+    let chain = disk.chain().unwrap();
+    let mut start = State::rest(&chain);
+    start.positions[..2].copy_from_slice(&[0.4, -0.1]);
+    let state = DVector::from_iterator(9, start.components());
+    let closing = DMatrix::zeros(9, 9);
+    let orbit = FlowOrbit { state, period: TAU, closure: SpatialClosure::full_period(9), closing, residual: 0.0 };
+    let found = blade_amplitudes(&SparseFlow::new(&chain), &orbit, 3).unwrap();
+    for (found, expected) in found.iter().zip([0.2, 0.05, 0.0]) {
+        // Rounding of the closed-form motion over two periods.
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
 }

@@ -2,7 +2,9 @@
 
 use std::fs;
 use stickslip::disk::{Fate, MonteCarlo, SampleRow, Summary};
-use stickslip::model::{Aerodynamics, BladedDisk, ContactPlace, FrictionContacts, InfluenceCoefficient, Mistuning};
+use stickslip::model::{
+    Aerodynamics, BladedDisk, ContactPlace, FrictionContacts, InfluenceCoefficient, Mistuning, Stability,
+};
 use stickslip::store::{Existing, Origin, OutputDir};
 
 /// Small disks near the edge of flutter: tuned they flutter, mistuned some do not.
@@ -117,4 +119,118 @@ fn a_settled_amplitude_is_that_of_a_motion_twice_as_long() {
 fn a_longest_time_below_the_first_is_refused() {
     let plan = MonteCarlo { longest: 10.0, ..plan(1) };
     assert!(plan.run(None, |_, _| {}).unwrap_err().to_string().contains("longest = 10"));
+}
+
+/// Three blades that the air feeds so weakly, 2e-5, that they grow by a factor of e in 16 000 periods: from a start below slip nothing slips in 1000.
+fn slow() -> MonteCarlo {
+    let disk = BladedDisk {
+        friction: vec![FrictionContacts::everywhere(ContactPlace::Foot, 0.5)],
+        aerodynamics: Some(Aerodynamics::Coefficients {
+            coefficients: vec![InfluenceCoefficient { offset: 0, real: 0.0, imaginary: -2e-5 }],
+            reference_frequency: 1.0,
+        }),
+        mistuning: Some(Mistuning::Normal { standard_deviation: 0.001, seed: 1 }),
+        ..BladedDisk::ring(3, 0.05)
+    };
+    MonteCarlo { disk, samples: 6, first_seed: 0, periods: 60.0, longest: 960.0, start: 0.3 }
+}
+
+#[test]
+fn a_motion_that_still_grows_and_never_slips_has_not_settled() {
+    // From one of the last tenths to the other it grows by 0.6 %, and yet no friction holds it.
+    let rows = on_threads(&slow(), 2, None);
+    for row in &rows {
+        assert!(row.fate == Fate::Flutter && !row.slips && !row.settled && row.periods == 960.0, "{row:?}");
+        assert!((row.least_damping + 2e-5).abs() < 1e-9, "{row:?}");
+    }
+    let summary = Summary::of(&rows);
+    assert_eq!((summary.fates.flutter, summary.fates.unsettled), (0, 6));
+    assert!(summary.amplitude_quantiles.is_empty());
+    // Where it counts as settled, contacts slip.
+    for row in on_threads(&MonteCarlo { longest: 3840.0, ..plan(40) }, 2, None) {
+        assert!(row.fate != Fate::Flutter || !row.settled || row.slips, "{row:?}");
+    }
+}
+
+#[test]
+fn amplitudes_leave_out_what_stuck_contacts_hold() {
+    // Uncoupled blades that do not slip: a force of zero at x_0 makes each swing about x_0/2 with amplitude x_0/2, its contact having half of its
+    // stiffness. With |x_0| up to 0.3 the largest of three lies below 0.15; with the offset it would be twice as much.
+    let still = slow();
+    let without_air = MonteCarlo {
+        disk: BladedDisk { coupling: 0.0, aerodynamics: None, ..still.disk.clone() },
+        periods: 60.0,
+        longest: 60.0,
+        ..still
+    };
+    for row in on_threads(&without_air, 2, None) {
+        let drawn = Mistuning::Uniform { half_width: 0.3, seed: row.seed ^ 0x5354_4152_5400_0000 };
+        let largest = drawn.deviations(3).unwrap().iter().fold(0.0_f64, |l, x| l.max(x.abs()));
+        // Stiffness deviations, some 0.1 %, and peaks missed by half of 2 pi/64: 0.12 %.
+        assert!((row.amplitude / (0.5 * largest) - 1.0).abs() < 5e-3, "{row:?} {largest}");
+        assert!(row.fate == Fate::Stable && row.settled && !row.slips);
+    }
+}
+
+#[test]
+fn motions_too_short_to_measure_and_seeds_beyond_the_last_are_refused() {
+    let refused = |plan: MonteCarlo| plan.run(None, |_, _| {}).unwrap_err().to_string();
+    assert!(refused(MonteCarlo { periods: 5.0, ..plan(1) }).contains("at least 20"));
+    let message = refused(MonteCarlo { first_seed: u64::MAX, ..plan(2) });
+    assert!(message.contains("seed") && message.contains("18446744073709551615"), "{message}");
+}
+
+#[test]
+fn a_draw_that_is_no_disk_is_named_by_its_seed() {
+    // Contacts take half of a blade's stiffness: a deviation below -1/2 leaves none, with this scatter in two of three draws.
+    let mistuning = Mistuning::Normal { standard_deviation: 1.0, seed: 1 };
+    let fails = |seed: &u64| mistuning.with_seed(*seed).deviations(3).unwrap().iter().any(|d| *d < -0.5);
+    let seed = (77..).find(fails).unwrap();
+    let disk = BladedDisk { mistuning: Some(mistuning.clone()), ..slow().disk };
+    let error = MonteCarlo { disk, samples: 1, first_seed: seed, ..slow() }.run(None, |_, _| {}).unwrap_err();
+    let message = error.to_string();
+    assert!(message.contains(&format!("seed {seed}:")) && message.contains("stiffness of blade"), "{message}");
+}
+
+#[test]
+fn intervals_are_those_of_wilson() {
+    // Wilson (1927) at 95 %: 10 of 10 gives [0.7225, 1], 0 of 10 [0, 0.2775] (4 digits); 1/2 of 10 [0.2366, 0.7634].
+    let row = on_threads(&MonteCarlo { samples: 1, ..slow() }, 1, None)[0];
+    let rows =
+        |fluttering: usize| -> Vec<SampleRow> {
+            (0..10)
+                .map(|i| {
+                    if i < fluttering {
+                        row
+                    } else {
+                        SampleRow { linear: Stability::Stable, least_damping: 0.1, ..row }
+                    }
+                })
+                .collect()
+        };
+    for (fluttering, expected) in [(10, [0.7225, 1.0]), (0, [0.0, 0.2775]), (5, [0.2366, 0.7634])] {
+        let found = Summary::of(&rows(fluttering)).linear_flutter_interval;
+        // Rounding of the published digits.
+        assert!((0..2).all(|i| (found[i] - expected[i]).abs() < 6e-5), "{fluttering}: {found:?}");
+    }
+    let held: Vec<SampleRow> = rows(10).into_iter().map(|row| SampleRow { settled: true, ..row }).collect();
+    let summary = Summary::of(&held);
+    assert!((summary.held_flutter_interval[0] - 0.7225).abs() < 6e-5 && summary.probability_of_held_flutter == 1.0);
+    assert_eq!(Summary::of(&rows(10)).probability_of_held_flutter, 0.0);
+}
+
+#[test]
+fn a_margin_of_rounding_size_is_no_flutter() {
+    let mut plan = slow();
+    plan.disk.aerodynamics = None;
+    for row in on_threads(&plan, 2, None) {
+        assert!(row.linear == Stability::Neutral && row.least_damping.abs() < 1e-12, "{row:?}");
+        assert!(row.fate == Fate::Stable, "{row:?}");
+    }
+    // Negative control: ten times the tolerance is told.
+    plan.disk.aerodynamics = Some(Aerodynamics::Coefficients {
+        coefficients: vec![InfluenceCoefficient { offset: 0, real: 0.0, imaginary: -1e-11 }],
+        reference_frequency: 1.0,
+    });
+    assert!(on_threads(&plan, 2, None).iter().all(|row| row.linear == Stability::Flutter));
 }

@@ -99,7 +99,7 @@ fn chart(cycle: &DiskCycle) -> Chart {
         x_label: "blade".to_owned(),
         y_label: "amplitude".to_owned(),
         series: vec![Series {
-            label: "largest displacement".to_owned(),
+            label: "half the range of displacements".to_owned(),
             points: cycle.amplitudes.iter().enumerate().map(|(j, a)| (j as f64, *a)).collect(),
             style: Style::Markers,
             tint: Tint::Blue,

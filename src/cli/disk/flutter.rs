@@ -13,6 +13,10 @@ use std::path::PathBuf;
 
 /// Monte Carlo over the random mistuning of a scene: linear flutter margins, fates and amplitudes of the exact motions.
 ///
+/// Displacements at the start are random as well (--start): shares and amplitudes are over mistuning and starts together, and where a stable disk has
+/// flutter beside its rest they depend on how far starts reach. Amplitudes are half the range of displacements of a blade. Flutter is held by friction
+/// where contacts slip and amplitudes have settled to 1 %.
+///
 /// With -o DIR finished samples are kept as they come: an interrupted run, killed ones included, goes on where it was and ends with the
 /// same files.
 #[derive(Debug, Args)]
@@ -24,13 +28,13 @@ pub struct FlutterArgs {
     /// Seed of the first sample; the others follow by one.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Length of each motion in periods 2 pi of a blade; motions that have not settled to 1 % go on.
+    /// Length of each motion in periods 2 pi of a blade, at least 20; motions that have not settled to 1 % go on.
     #[arg(long, default_value_t = 400.0, allow_hyphen_values = true)]
     periods: f64,
     /// Length up to which they go on, in steps of four times; those not settled by then are counted apart. 16 times --periods without it.
     #[arg(long, allow_hyphen_values = true)]
     longest: Option<f64>,
-    /// Displacements at the start are uniform from minus this to this.
+    /// Displacements at the start are uniform from minus this to this: part of what is drawn.
     #[arg(long, default_value_t = 0.5, allow_hyphen_values = true)]
     start: f64,
     #[command(flatten)]
@@ -70,8 +74,15 @@ pub fn run(args: &FlutterArgs) -> anyhow::Result<Verdict> {
             Document::new("disk flutter", parameters).with("summary", json!(summary)).with("files", json!(files));
         return print(&document.text()?).map(|()| Verdict::Done);
     }
-    let Summary { fates, probability_of_linear_flutter: p, standard_error, .. } = &summary;
-    print(&format!("linear flutter in {:.1} +- {:.1} % of {} disks", 100.0 * p, 100.0 * standard_error, rows.len()))?;
+    let fates = &summary.fates;
+    let of = |p: f64, [low, high]: [f64; 2]| {
+        format!("{:.1} %, Wilson 95 % interval {:.1} to {:.1} %", 100.0 * p, 100.0 * low, 100.0 * high)
+    };
+    print(&format!("of {} disks", rows.len()))?;
+    let linear = of(summary.probability_of_linear_flutter, summary.linear_flutter_interval);
+    print(&format!("linear flutter: {linear}"))?;
+    let held = of(summary.probability_of_held_flutter, summary.held_flutter_interval);
+    print(&format!("settled flutter held by friction: {held}"))?;
     print(&format!(
         "stable {}, flutter held by friction {}, not settled {}, diverged {}",
         fates.stable, fates.flutter, fates.unsettled, fates.diverged

@@ -23,7 +23,11 @@ const TINTS: [Tint; 5] = [Tint::Blue, Tint::Orange, Tint::Green, Tint::Vermillio
 /// The motion of the disk: amplitude of every wave over time, by nodal diameter (of a chain, by blade).
 ///
 /// Waves are seen at their own frequencies with stuck contacts: amplitudes of the exact motion and of the engine are off by half the part by
-/// which slip lowers the frequency.
+/// which slip lowers the frequency. What contacts that stick hold the blades off their rest stands in the amplitudes as well: a wave
+/// that does not swing can have one.
+///
+/// With slow-flow all waves are averaged on one carrier frequency: where their frequencies lie apart it is off. The secondary
+/// Hopf point of the two-mass rig comes out 7 % off with it.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  stickslip disk simulate scenes/disk_competition.toml -o waves.csv --plot waves.svg\n  \

@@ -182,7 +182,7 @@ impl BladedDisk {
 
     fn check_sectors(&self) -> Result<(), ParameterError> {
         let (least, allowed) = match self.topology {
-            Topology::Ring => (3, "from 3 to 4096 in a ring"),
+            Topology::Ring => (3, "from 3 to 4096 in a ring; for fewer take topology = \"chain\""),
             Topology::Chain => (1, "from 1 to 4096 in a chain"),
         };
         if (least..=MOST_SECTORS).contains(&self.sectors) {

@@ -10,12 +10,16 @@
 //! is 1 where all blades move alike (every travelling wave) and 1/N where one moves alone. Where eigenvalues coincide, shapes are not unique:
 //! of a tuned disk take [`super::BladedDisk::tuned_modes`].
 
-use super::wave::NodalDiameter;
+use super::wave::{NodalDiameter, TravelDirection};
 use crate::model::{LinearMode, ModesError, OscillatorChain};
 use nalgebra::{Complex, DMatrix, DVector};
 
 /// Distance of the shift from the eigenvalue, relative: far beyond its rounding, far below any gap that matters.
 const SHIFT: f64 = 1e-10;
+
+/// Waves n and -n whose shares differ by less than this part of their sum stand. Shapes without air are real to rounding over the smallest gap between
+/// frequencies, so that their shares differ by less; what travels by one part in a million is standing to any eye.
+const STANDING: f64 = 1e-6;
 
 /// A mode with its shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,6 +93,15 @@ impl ModeShape {
             .collect()
     }
 
+    /// Which way the wave with the largest share runs; standing where the opposite wave has the same share.
+    #[must_use]
+    pub fn direction(&self, blades: usize) -> TravelDirection {
+        let wave = self.dominant_wave(blades);
+        let shares = self.wave_shares(blades);
+        let [here, there] = [wave, NodalDiameter::new(-wave.signed(), blades)].map(|wave| shares[wave.index()]);
+        if here - there <= STANDING * (here + there) { TravelDirection::Standing } else { wave.direction() }
+    }
+
     /// The wave with the largest share; of equal ones the first in the order 0, 1, -1, 2, ...
     #[must_use]
     pub fn dominant_wave(&self, blades: usize) -> NodalDiameter {
@@ -101,7 +114,7 @@ impl ModeShape {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BladedDisk, Mistuning};
+    use super::super::{Aerodynamics, BladedDisk, InfluenceCoefficient, Mistuning, TravelDirection};
 
     #[test]
     fn one_loose_blade_localises_a_mode_and_uncoupled_blades_localise_all() {
@@ -115,5 +128,20 @@ mod tests {
         assert_eq!(top.shape.iter().position(|c| c.norm() == 1.0), Some(3));
         let shares: f64 = top.wave_shares(10).iter().sum();
         assert!((shares - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn modes_without_air_stand_and_air_lets_them_travel() {
+        let mistuning = Some(Mistuning::Normal { standard_deviation: 0.02, seed: 4 });
+        let still = BladedDisk { mistuning, ..BladedDisk::ring(9, 0.1) };
+        let directions = |disk: &BladedDisk| -> Vec<TravelDirection> {
+            disk.chain().unwrap().mode_shapes(&[]).unwrap().iter().map(|shape| shape.direction(9)).collect()
+        };
+        // Shapes of a symmetric matrix are real.
+        assert!(directions(&still).iter().all(|direction| *direction == TravelDirection::Standing));
+        let l = |offset, real| InfluenceCoefficient { offset, real, imaginary: 0.0 };
+        let air = Aerodynamics::Coefficients { coefficients: vec![l(1, 0.02), l(-1, -0.02)], reference_frequency: 1.0 };
+        let moving = directions(&BladedDisk { aerodynamics: Some(air), ..still });
+        assert!(moving.contains(&TravelDirection::Forward) && moving.contains(&TravelDirection::Backward));
     }
 }

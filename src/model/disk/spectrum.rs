@@ -8,6 +8,7 @@
 //! ```
 //!
 //! each seen at a w of its own: exact for harmonic motion at that w, otherwise right up to half the difference between the two, relative.
+//! Static displacements, as stuck contacts hold them, are not told from motion and stand in the amplitudes.
 
 use super::bladed_disk::Topology;
 use nalgebra::Complex;
