@@ -145,12 +145,18 @@ impl Source {
         })
     }
 
-    /// How dark a frame is beside a cut, 0 to 1. A film of one stage has no cut.
+    /// How dark a frame is beside a cut, 0 to 1, and at the end of a story, whose last frame is black. No frame beside a cut is: two
+    /// black ones would stand still. A film of one stage has no cut.
     fn darkness(&self, stage: &Take, number: u64, index: u64) -> f32 {
-        let to_end = stage.frame_count() - 1 - number;
-        let before = if index == number { self.fade } else { number };
-        let after = if index + to_end + 1 == self.count() { self.fade } else { to_end };
-        1.0 - before.min(after).min(self.fade) as f32 / self.fade as f32
+        let (whole, to_end) = (self.fade + 1, stage.frame_count() - 1 - number);
+        let is_last = index + to_end + 1 == self.count();
+        let before = if index == number { whole } else { number + 1 };
+        let after = match (is_last, self.stages.len()) {
+            (true, 1) => whole,
+            (true, _) => to_end,
+            (false, _) => to_end + 1,
+        };
+        1.0 - before.min(after).min(whole) as f32 / whole as f32
     }
 }
 

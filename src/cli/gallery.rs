@@ -8,7 +8,7 @@ use super::progress::Progress;
 use crate::film::{encode_small_png, gif, scaled};
 use crate::render::Renderer;
 use crate::scene::{BUILT_IN, BUILT_IN_DISKS, CameraMove, Case, Scene};
-use crate::stage::Take;
+use crate::stage::{Take, data_colours};
 use crate::store::write_atomically;
 use anyhow::{Context, ensure};
 use clap::Args;
@@ -101,7 +101,7 @@ fn short_loop(
     let frames = (first..stage.frame_count().min(first + LOOP_FRAMES))
         .map(|index| Ok(scaled(&renderer.draw(&stage.frame(index))?.0, LOOP)))
         .collect::<anyhow::Result<Vec<_>>>()?;
-    gif(&frames, (1, LOOP_RATE as u16)).context("the loop could not be encoded")
+    gif(&frames, (1, LOOP_RATE as u16), &data_colours()).context("the loop could not be encoded")
 }
 
 /// A disk alone for one period of its motion.
@@ -122,5 +122,5 @@ fn one_period(
     let frames = (0..DISK_LOOP_FRAMES)
         .map(|n| Ok(scaled(&renderer.draw(&stage.frame_at(time(n)))?.0, DISK_LOOP)))
         .collect::<anyhow::Result<Vec<_>>>()?;
-    gif(&frames, (1, LOOP_RATE as u16)).context("the loop could not be encoded")
+    gif(&frames, (1, LOOP_RATE as u16), &data_colours()).context("the loop could not be encoded")
 }

@@ -5,6 +5,7 @@ use super::common::print;
 use super::film::parse_frames;
 use crate::film::{animated_png, contact_sheet, encode_png, gif, scaled};
 use crate::render::has_transparency;
+use crate::stage::data_colours;
 use crate::store::{read_whole, write_atomically};
 use anyhow::{Context, bail, ensure};
 use clap::Args;
@@ -110,7 +111,7 @@ pub fn animate(args: &AnimateArgs) -> anyhow::Result<Verdict> {
         Some("gif") if frames.iter().any(has_transparency) => {
             bail!("the frames are translucent, which GIF cannot show: end the name of the loop in .png")
         }
-        Some("gif") => gif(&frames, delay).context("the loop could not be encoded as GIF")?,
+        Some("gif") => gif(&frames, delay, &data_colours()).context("the loop could not be encoded as GIF")?,
         Some("png" | "apng") => animated_png(&frames, delay).context("the loop could not be encoded as PNG")?,
         _ => bail!("{} says no format: end its name in .gif or .png", args.output.display()),
     };

@@ -1,7 +1,7 @@
 //! Short loops for pages that show pictures but play no video: GIF and animated PNG; and pictures of several frames side by side.
 
-use super::picture;
-use crate::render::{has_transparency, premultiply, straighten};
+use super::{colours, picture};
+use crate::render::{Colour, has_transparency, premultiply, straighten};
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::imageops::{FilterType, overlay, resize};
 use image::{Delay, Frame, ImageResult, Rgba, RgbaImage};
@@ -52,18 +52,19 @@ pub fn animated_png(frames: &[RgbaImage], delay: (u16, u16)) -> Result<Vec<u8>, 
     Ok(bytes)
 }
 
-/// An endless loop as GIF, 256 colours a picture; each picture stands for `delay.0 / delay.1` seconds, in hundredths.
+/// An endless loop as GIF, in 256 colours, among them all of `kept`; each picture stands for `delay.0 / delay.1` seconds, in hundredths.
 ///
 /// # Errors
 /// For pictures of different sizes, or larger than 65535 pixels.
-pub fn gif(frames: &[RgbaImage], delay: (u16, u16)) -> ImageResult<Vec<u8>> {
+pub fn gif(frames: &[RgbaImage], delay: (u16, u16), kept: &[Colour]) -> ImageResult<Vec<u8>> {
     let mut bytes = Vec::new();
-    // 1 is the best palette and 30 the fastest.
-    let mut encoder = GifEncoder::new_with_speed(&mut bytes, 6);
+    let kept: Vec<[u8; 3]> = kept.iter().map(|Colour([r, g, b, _])| [*r, *g, *b]).collect();
+    // 1 is the best palette and 30 the fastest, for pictures of more colours than are left here.
+    let mut encoder = GifEncoder::new_with_speed(&mut bytes, 1);
     encoder.set_repeat(Repeat::Infinite)?;
     let delay = Delay::from_numer_denom_ms(1000 * u32::from(delay.0), u32::from(delay.1).max(1));
-    for frame in frames {
-        encoder.encode_frame(Frame::from_parts(frame.clone(), 0, 0, delay))?;
+    for frame in colours::reduced(frames, &kept) {
+        encoder.encode_frame(Frame::from_parts(frame, 0, 0, delay))?;
     }
     drop(encoder);
     Ok(bytes)
@@ -100,7 +101,7 @@ mod tests {
     #[test]
     fn loops_hold_their_pictures_in_order_for_their_time() {
         let delay = (1, 10);
-        let gif = gif(&frames(), delay).unwrap();
+        let gif = gif(&frames(), delay, &[]).unwrap();
         let apng = animated_png(&frames(), delay).unwrap();
         let gif = GifDecoder::new(Cursor::new(gif)).unwrap().into_frames().collect_frames().unwrap();
         let apng = PngDecoder::new(Cursor::new(apng)).unwrap().apng().unwrap().into_frames().collect_frames().unwrap();

@@ -10,6 +10,7 @@
 //! parameters, the device and this program's version only: neither on threads nor on interruptions.
 
 mod animation;
+mod colours;
 mod error;
 mod ffmpeg;
 mod h264;

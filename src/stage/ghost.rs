@@ -11,8 +11,13 @@ use std::collections::BTreeSet;
 
 /// The largest difference of the film is drawn this long at most, in drawing units.
 const LONGEST: f64 = 0.3;
-/// Shorter ones are not seen: nothing is drawn.
+/// Shorter ones are not seen, longer ones are drawn in full; between them the outline fades: a hard limit would make it flicker wherever
+/// the difference passes through zero.
 const SHORTEST: f64 = 0.004;
+const FULL: f64 = 0.03;
+/// Opacity of the outline's faces and edges.
+const FACE: f32 = 0.06;
+const EDGE: f32 = 0.8;
 /// Differences beyond this factor of magnification are rounding.
 const LARGEST_FACTOR: f64 = 1e9;
 /// Faces of a cuboid whose corners are numbered by the bits of their signs, counter-clockwise seen from outside.
@@ -52,29 +57,49 @@ impl Ghost {
             return;
         }
         let exact = self.reference.at(now.time);
+        let mut is_seen = false;
         for i in 0..2 {
             let difference = self.factor * (exact.positions[i] - now.positions[i]);
-            if difference.abs() * f64::from(rig.magnification()) < SHORTEST {
-                continue;
+            let shown = shown(difference.abs() * f64::from(rig.magnification()));
+            if shown > 0.0 {
+                let corners = rig.outline(i, now.positions[i] + difference);
+                draw_cuboid(corners, camera, size, (palette, scale, shown), out);
+                is_seen = true;
             }
-            let corners = rig.outline(i, now.positions[i] + difference);
-            draw_cuboid(corners, camera, size, (palette, scale), out);
         }
-        let factor =
-            if self.factor > 1.0 { format!(", difference × {}", thousands(self.factor)) } else { String::new() };
+        let text = if is_seen {
+            let factor =
+                if self.factor > 1.0 { format!(", difference × {}", thousands(self.factor)) } else { String::new() };
+            format!("outline: exact solution{factor}; now {} apart", with_power(distance(now, &exact)))
+        } else {
+            let bound = SHORTEST / (self.factor * f64::from(rig.magnification()));
+            format!("exact solution: difference below {}", with_power(rounded_up(bound)))
+        };
         out.push(OverlayItem::Text {
             position: place,
             anchor: Anchor::Left,
             size: 13.0 * scale,
             colour: palette.faint_text,
             bold: false,
-            text: format!("outline: exact solution{factor}; now {} apart", with_power(distance(now, &exact))),
+            text,
         });
     }
 }
 
 fn distance(a: &Instant, b: &Instant) -> f64 {
     (0..2).map(|i| (a.positions[i] - b.positions[i]).abs()).fold(0.0, f64::max)
+}
+
+/// How far an outline as long a way off as this is faded in, 0 to 1: smoothly from [`SHORTEST`] to [`FULL`].
+fn shown(length: f64) -> f32 {
+    let part = ((length - SHORTEST) / (FULL - SHORTEST)).clamp(0.0, 1.0);
+    (part * part * (3.0 - 2.0 * part)) as f32
+}
+
+/// The next larger number of two digits: what lies below a bound lies below this as well.
+fn rounded_up(bound: f64) -> f64 {
+    let step = 10f64.powf(bound.log10().floor() - 1.0);
+    (bound / step).ceil() * step
 }
 
 /// Digits in groups of three.
@@ -96,7 +121,7 @@ fn draw_cuboid(
     corners: [Vec3; 8],
     camera: &Camera,
     size: [u32; 2],
-    (palette, scale): (&Palette, f32),
+    (palette, scale, shown): (&Palette, f32, f32),
     out: &mut Vec<OverlayItem>,
 ) {
     let Some(places) = corners.iter().map(|&corner| camera.project(corner, size)).collect::<Option<Vec<Vec2>>>() else {
@@ -109,11 +134,15 @@ fn draw_cuboid(
         if (points[1] - points[0]).perp_dot(points[2] - points[1]) >= 0.0 {
             continue;
         }
-        out.push(OverlayItem::Polygon { points: points.to_vec(), fill: palette.ghost.with_alpha(0.06), clip: None });
+        out.push(OverlayItem::Polygon {
+            points: points.to_vec(),
+            fill: palette.ghost.with_alpha(FACE * shown),
+            clip: None,
+        });
         edges.extend((0..4).map(|i| (face[i].min(face[(i + 1) % 4]), face[i].max(face[(i + 1) % 4]))));
     }
     for (from, to) in edges {
-        let stroke = Stroke { width: 1.5 * scale, colour: palette.ghost.with_alpha(0.8) };
+        let stroke = Stroke { width: 1.5 * scale, colour: palette.ghost.with_alpha(EDGE * shown) };
         out.push(OverlayItem::Line { points: vec![places[from], places[to]], stroke, clip: None });
     }
 }
@@ -148,6 +177,22 @@ mod tests {
         assert_eq!(factor(5.0), Some(1.0));
         assert_eq!(factor(0.0), None);
         assert_eq!(factor(1e-15), None, "rounding is no difference");
+    }
+
+    #[test]
+    fn an_outline_fades_in_without_a_step() {
+        assert_eq!([0.0, SHORTEST, FULL, 1.0].map(shown), [0.0, 0.0, 1.0, 1.0]);
+        let lengths = (0..=400).map(|n| 1e-4 * f64::from(n));
+        let values: Vec<f32> = lengths.map(shown).collect();
+        // A smooth step is steepest in its middle, 3/2 over its width of 0.026: 0.0058 from one of these lengths to the next.
+        assert!(values.windows(2).all(|pair| pair[1] >= pair[0] && pair[1] - pair[0] < 0.006));
+    }
+
+    #[test]
+    fn a_bound_is_never_rounded_below_itself() {
+        assert_eq!(with_power(rounded_up(1.31e-6)), "1.4·10⁻⁶");
+        assert_eq!(with_power(rounded_up(9.92e-6)), "1.0·10⁻⁵");
+        assert_eq!(with_power(rounded_up(0.25)), "2.5·10⁻¹");
     }
 
     #[test]

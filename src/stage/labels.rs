@@ -1,6 +1,7 @@
 //! Words over the scene: headline, parameters, time, contact state, energy.
 
 use super::motion::Instant;
+use super::numbers::with_power;
 use super::palette::Palette;
 use crate::model::Scales;
 use crate::render::{Anchor, Colour, OverlayItem, Rectangle, text_width};
@@ -87,6 +88,17 @@ pub fn draw_status(
     });
 }
 
+/// How much displacements are magnified; in SI those of a millimetre. `carriage_widths` is what a non-dimensional displacement of 1 is
+/// drawn as.
+pub fn magnification(scales: &Scales, carriage_widths: f32) -> String {
+    let (unit, drawn) = match *scales {
+        Scales::UNITY => ("1", f64::from(carriage_widths)),
+        Scales { length, .. } => ("1 mm", 1e-3 * f64::from(carriage_widths) / length),
+    };
+    let drawn = if (0.1..100.0).contains(&drawn) { format!("{drawn:.2}") } else { with_power(drawn) };
+    format!("displacement {unit} drawn as {drawn} carriage widths")
+}
+
 /// At most four significant digits after the point, without trailing zeros.
 pub fn short(value: f64) -> String {
     let digits = format!("{value:.4}");
@@ -103,6 +115,17 @@ mod tests {
         assert_eq!(short(-0.06), "−0.06");
         assert_eq!(short(1.0), "1");
         assert_eq!(short(0.0346), "0.0346");
+    }
+
+    #[test]
+    fn the_magnification_is_that_of_the_unit_shown() {
+        let says = |scales, drawn: &str| {
+            assert_eq!(magnification(&scales, 0.5), format!("displacement {drawn} carriage widths"));
+        };
+        says(Scales::UNITY, "1 drawn as 0.50");
+        // 2 mm are half a carriage, or 5 m are.
+        says(Scales { length: 0.002, ..Scales::UNITY }, "1 mm drawn as 0.25");
+        says(Scales { length: 5.0, ..Scales::UNITY }, "1 mm drawn as 1.0·10⁻⁴");
     }
 
     #[test]

@@ -19,7 +19,7 @@ const IN_COLUMN: usize = 3;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     size: [u32; 2],
-    /// Pixels per pixel of a 720 lines high picture.
+    /// Pixels per pixel of a 1280 x 720 picture that fits into this one.
     pub scale: f32,
     /// One for each panel.
     pub panels: Vec<Rectangle>,
@@ -31,7 +31,8 @@ impl Layout {
     #[must_use]
     pub fn new(size: [u32; 2], panels: usize) -> Self {
         let [width, height] = size.map(|side| side as f32);
-        let scale = height / 720.0;
+        // Words and borders fit in both directions, whatever the shape of the picture.
+        let scale = (height / 720.0).min(width / 1280.0);
         let (border, gap) = (BORDER * scale, GAP * scale);
         let (in_column, in_row) = (panels.min(IN_COLUMN), panels.saturating_sub(IN_COLUMN));
         let right = if panels == 0 { width - border } else { width * SCENE_WIDTH };
@@ -80,19 +81,23 @@ impl Layout {
 mod tests {
     use super::*;
 
+    /// Wide, upright, square, and the old shape of screens.
+    const SIZES: [[u32; 2]; 4] = [[1920, 1080], [1080, 1920], [1080, 1080], [1024, 768]];
+
     #[test]
     fn panels_lie_in_the_picture_and_apart_from_each_other_and_the_scene() {
-        for count in 0..=6 {
-            let layout = Layout::new([1920, 1080], count);
+        for (count, size) in (0..=6).flat_map(|count| SIZES.map(|size| (count, size))) {
+            let layout = Layout::new(size, count);
+            let whole = Vec2::from(size.map(|side| side as f32));
             assert_eq!(layout.panels.len(), count);
             let mut all = layout.panels.clone();
             all.push(layout.scene);
             for (i, a) in all.iter().enumerate() {
-                assert!(a.min.cmpge(Vec2::ZERO).all() && a.max.cmple(Vec2::new(1920.0, 1080.0)).all());
+                assert!(a.min.cmpge(Vec2::ZERO).all() && a.max.cmple(whole).all());
                 assert!(a.max.x - a.min.x > 100.0 && a.max.y - a.min.y > 100.0);
                 let meets =
                     |b: &Rectangle| a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
-                assert!(!all[i + 1..].iter().any(meets), "{count} panels: number {i} overlaps another");
+                assert!(!all[i + 1..].iter().any(meets), "{count} panels on {size:?}: number {i} overlaps another");
             }
         }
     }

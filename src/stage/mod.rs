@@ -17,6 +17,7 @@ mod take;
 
 pub use disk::{DeflectionColours, DiskInstant, DiskMotion, DiskStage};
 pub use motion::{Body, Instant, Motion};
+pub use palette::data_colours;
 pub use panels::DampingMap;
 pub use plot::{Axis, Plot};
 pub use take::Take;
@@ -137,6 +138,14 @@ impl Stage {
         labels::draw_headline(&self.case.title, caption, palette, (scene.min, room), scale, out);
         let status = self.layout.status();
         labels::draw_status(&self.case, palette, now, (status, scene.max.x), scale, out);
+        out.push(OverlayItem::Text {
+            position: Vec2::new(scene.max.x - 14.0 * scale, status.y + 3.0 * scale),
+            anchor: Anchor::Right,
+            size: 12.0 * scale,
+            colour: palette.faint_text,
+            bold: false,
+            text: labels::magnification(&self.case.scales, self.rig.carriage_widths()),
+        });
         let anchors = self.rig.anchors(now);
         // The springs pass behind the letter of the normal force.
         if let Some(centre) = camera.project(anchors.normal_force, size) {

@@ -122,6 +122,13 @@ impl Palette {
     }
 }
 
+/// Colours that stand for a quantity or a state, in both themes.
+#[must_use]
+pub fn data_colours() -> Vec<Colour> {
+    let of = |p: Palette| [p.masses[0], p.masses[1], p.stick, p.slip, p.excitation];
+    [DARK, LIGHT].into_iter().flat_map(of).collect()
+}
+
 const fn material(hex: u32, roughness: f32, metallic: f32) -> Material {
     Material { colour: Colour::rgb(hex), roughness, metallic, glow: 0.0 }
 }

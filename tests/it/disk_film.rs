@@ -341,3 +341,24 @@ fn the_contact_panel_marks_elongation_and_force_of_the_moment() {
         assert!((now.positions[(blade + 1) % BLADES] - x).abs() > 1e-2);
     }
 }
+
+/// The numbers at the scale of colours end well inside their panel, not at its edge.
+#[test]
+fn numbers_at_the_scale_of_colours_keep_a_border() {
+    let list = stage(&[(2, 1.234)]).frame(70);
+    let is_frame = |item: &OverlayItem| matches!(item, OverlayItem::Box { corner_radius, .. } if *corner_radius == 8.0);
+    let index = Panel::DISK.iter().position(|panel| *panel == Panel::Carpet).unwrap();
+    let Some(OverlayItem::Box { area, .. }) = list.overlay.iter().filter(|item| is_frame(item)).nth(index) else {
+        panic!("no carpet")
+    };
+    let ends = panel(&list, Panel::Carpet).into_iter().filter_map(|item| match item {
+        OverlayItem::Text { position, anchor: Anchor::Left, text, size: 10.0, .. } => {
+            Some(position.x + stickslip::render::text_width(&text, 10.0, false))
+        }
+        _ => None,
+    });
+    let ends: Vec<f32> = ends.collect();
+    assert_eq!(ends.len(), 3);
+    // As much as a letter is wide.
+    assert!(ends.iter().all(|end| area.max.x - end > 6.0), "{ends:?} of {}", area.max.x);
+}

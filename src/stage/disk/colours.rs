@@ -15,9 +15,10 @@ impl DeflectionColours {
     /// `limit` is the deflection of the strongest colours, positive.
     #[must_use]
     pub fn new(theme: Theme, limit: f64) -> Self {
+        // Zero stands out from the floor of its theme: brighter than the dark one, darker than the light one.
         let stops = match theme {
             Theme::Dark => [0x1f6fe0, 0x9aa3ab, 0xffd60a],
-            Theme::Light => [0x0a4fb3, 0xe2e5e8, 0xd9a300],
+            Theme::Light => [0x0a4fb3, 0xa8b0b8, 0xd9a300],
         };
         Self { stops: stops.map(Colour::rgb), limit }
     }
@@ -50,7 +51,7 @@ mod tests {
         let colours = DeflectionColours::new(Theme::Light, 2.0);
         assert_eq!([-2.0, 0.0, 2.0].map(|x| colours.of(x)), colours.stops);
         assert_eq!(colours.of(5.0), colours.of(2.0));
-        // Half way from e2e5e8 to d9a300.
-        assert_eq!(colours.of(1.0), Colour::rgb(0xdec474));
+        // Half way from a8b0b8 to d9a300, channel by channel: 192.5, 169.5, 92, halves rounded up.
+        assert_eq!(colours.of(1.0), Colour::rgb(0xc1aa5c));
     }
 }

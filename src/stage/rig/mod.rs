@@ -95,6 +95,12 @@ impl RigModel {
         self.magnification
     }
 
+    /// Widths of a carriage at rest per non-dimensional unit of length.
+    #[must_use]
+    pub fn carriage_widths(&self) -> f32 {
+        self.magnification / (2.0 * HALF)
+    }
+
     /// Where a body is drawn.
     fn pose(&self, index: usize, body: &Body) -> Affine3A {
         let [x, y, z] = body.displacement.map(|d| self.magnification * d as f32);

@@ -12,7 +12,7 @@ const WINDOW: f64 = 44.0;
 /// Time of one column.
 const COLUMN: f64 = 0.2;
 /// Border for the scale of colours, its left end and width, pixels of a 720 lines high picture.
-const SCALE_ROOM: f32 = 58.0;
+const SCALE_ROOM: f32 = 72.0;
 const SCALE_PLACE: [f32; 2] = [12.0, 10.0];
 /// Cells of the scale of colours.
 const SCALE_CELLS: usize = 33;
