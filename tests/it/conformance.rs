@@ -93,7 +93,7 @@ fn at_the_defaults_a_torus_stands_where_the_exact_diagram_has_a_limit_cycle() {
     let defaults = Configuration { precision: Precision::Double, ..Configuration::ENGINE_DEFAULTS };
     let xi1 = "xi1 = -0.020";
     for (configuration, steps, physics) in
-        [(defaults, 377, Physics::Wrong), (Configuration::RECIPE, 256, Physics::Right)]
+        [(defaults, 377, Physics::Wrong), (Configuration::DEFAULT, 256, Physics::Right)]
     {
         let rows = rows("amplitude_diagram", xi1, configuration, &[steps]);
         let row = |quantity: &str| rows.iter().find(|row| row.quantity == quantity).unwrap();
