@@ -37,9 +37,11 @@ mod disk_cycles;
 #[cfg(feature = "engine")]
 mod disk_engine;
 mod disk_exact;
+#[cfg(feature = "render")]
 mod disk_film;
 mod disk_flutter;
 mod disk_linear;
+#[cfg(feature = "cli")]
 mod disk_run;
 mod disk_slow_flow;
 mod disk_waves;
@@ -55,6 +57,7 @@ mod film;
 mod general_solver;
 #[cfg(feature = "render")]
 mod golden;
+#[cfg(feature = "render")]
 mod golden_disk;
 mod harmonic_balance;
 mod hopf;
