@@ -88,7 +88,7 @@ fn defaults(report: &Report) -> Option<String> {
     };
     let hopf = report.rows.iter().find(|row| row.quantity == "secondary_hopf_xi1_at_default_step");
     let hopf = hopf.and_then(|row| Some((row.found?, row.exact?))).map_or(String::new(), |(found, exact)| {
-        format!(" The limit cycle loses stability at ξ₁ = {found:.5} in place of {exact:.5}.")
+        format!(" In f64 the limit cycle loses stability at ξ₁ = {found:.5} in place of {exact:.5} with them.")
     });
     Some(format!(
         "Do not trust its defaults (f32, 4 substeps, force law evaluated once a step): at dt = 1/60 they give an undamped oscillator of frequency 1 the numerical \
