@@ -1,12 +1,13 @@
 //! Making a film of a motion: shared by `run` and `render`.
 
+use super::motions;
 use super::progress::Progress;
 use crate::dynamics::Trajectory;
-use crate::engine::{BodyPose, BodyRole, Recording, RigGeometry};
+use crate::engine::{BodyPose, BodyRole, EngineInfo, Recording, RigGeometry};
 use crate::film::{self, Encoder, Ffmpeg, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
 use crate::render::{AdapterInfo, Colour, DrawList, OverlayItem, Rectangle, Renderer, RendererChoice};
 use crate::scene::{Backdrop, Case, Film};
-use crate::stage::{Beside, Body, DiskMotion, DiskStage, Motion, Stage, Take};
+use crate::stage::{Beside, Body, DiskMotion, DiskStage, Motion, Solution, Stage, Take};
 use crate::store::{OutputDir, sha256_hex};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
@@ -196,8 +197,13 @@ pub struct Made {
     pub adapter: AdapterInfo,
 }
 
-/// The motion to film, and the exact one beside it.
-pub enum Shown {
+/// The motion to film, what computed it, and the exact one beside it.
+pub struct Shown {
+    motion: ShownMotion,
+    solution: Solution,
+}
+
+enum ShownMotion {
     Rig { motion: Motion, reference: Option<Motion> },
     Disk { motion: DiskMotion, reference: Option<DiskMotion> },
 }
@@ -205,9 +211,8 @@ pub enum Shown {
 const NOT_THE_RIG: &str = "the motion is not one of two masses and one slider";
 const NOT_THE_DISK: &str = "the motion is not one of the scene's disk";
 
-impl Shown {
-    /// A motion without bodies.
-    pub fn of(case: &Case, trajectory: &Trajectory) -> anyhow::Result<Self> {
+impl ShownMotion {
+    fn of(case: &Case, trajectory: &Trajectory) -> anyhow::Result<Self> {
         if let Some(disk) = &case.disk {
             let motion = DiskMotion::new(&disk.disk, trajectory)?.context(NOT_THE_DISK)?;
             return Ok(Self::Disk { motion, reference: None });
@@ -215,8 +220,8 @@ impl Shown {
         Ok(Self::Rig { motion: Motion::new(trajectory).context(NOT_THE_RIG)?, reference: None })
     }
 
-    /// The engine's motion, that of the rig with its own bodies.
-    pub fn of_engine(case: &Case, recording: &Recording) -> anyhow::Result<Self> {
+    /// With the rig's own bodies.
+    fn of_engine(case: &Case, recording: &Recording) -> anyhow::Result<Self> {
         if case.disk.is_some() {
             return Self::of(case, &recording.trajectory);
         }
@@ -225,14 +230,31 @@ impl Shown {
         Ok(Self::Rig { motion: motion.context(NOT_THE_RIG)?, reference: None })
     }
 
-    pub fn beside(self, case: &Case, exact: &Trajectory) -> anyhow::Result<Self> {
-        Ok(match (self, Self::of(case, exact)?) {
+    fn beside(self, exact: Self) -> Self {
+        match (self, exact) {
             (Self::Rig { motion, .. }, Self::Rig { motion: exact, .. }) => Self::Rig { motion, reference: Some(exact) },
             (Self::Disk { motion, .. }, Self::Disk { motion: exact, .. }) => {
                 Self::Disk { motion, reference: Some(exact) }
             }
             (shown, _) => shown,
-        })
+        }
+    }
+}
+
+impl Shown {
+    /// A motion without bodies.
+    pub fn of(case: &Case, trajectory: &Trajectory, solution: Solution) -> anyhow::Result<Self> {
+        Ok(Self { motion: ShownMotion::of(case, trajectory)?, solution })
+    }
+
+    /// The engine's motion, that of the rig with its own bodies.
+    pub fn of_engine(case: &Case, recording: &Recording) -> anyhow::Result<Self> {
+        let solution = Solution::Engine(EngineInfo::of(motions::precision(case)).to_string());
+        Ok(Self { motion: ShownMotion::of_engine(case, recording)?, solution })
+    }
+
+    pub fn beside(self, case: &Case, exact: &Trajectory) -> anyhow::Result<Self> {
+        Ok(Self { motion: self.motion.beside(ShownMotion::of(case, exact)?), ..self })
     }
 }
 
@@ -256,13 +278,16 @@ pub fn stage(case: &Case, shown: Shown, supersample: u32, progress: &Progress) -
     let mut case = case.clone();
     case.film.width *= supersample;
     case.film.height *= supersample;
-    match shown {
-        Shown::Rig { motion, reference } => {
+    let solution = shown.solution;
+    match shown.motion {
+        ShownMotion::Rig { motion, reference } => {
             let map = super::damping_map::of(&case, progress)?;
-            Ok(Take::Rig(Box::new(Stage::new(case, motion, Beside { exact: reference, map }))))
+            let beside = Beside { exact: reference, map, solution: Some(solution) };
+            Ok(Take::Rig(Box::new(Stage::new(case, motion, beside))))
         }
-        Shown::Disk { motion, reference } => {
-            Ok(Take::Disk(Box::new(DiskStage::new(case, motion, reference).context("the scene has no disk")?)))
+        ShownMotion::Disk { motion, reference } => {
+            let stage = DiskStage::new(case, motion, reference).context("the scene has no disk")?;
+            Ok(Take::Disk(Box::new(stage.computed_by(solution))))
         }
     }
 }

@@ -76,7 +76,7 @@ fn list(golden: &Golden) -> DrawList {
         motions: (1..40).map(|n| (-0.005 * f64::from(n), [1.0, 1.0 + 0.04 * f64::from(n)])).collect(),
         divergence: Some(-0.165),
     };
-    let beside = Beside { exact: None, map: Some(map) };
+    let beside = Beside { map: Some(map), ..Beside::default() };
     Stage::new(case, Motion::new(&trajectory).unwrap(), beside).frame(golden.frame)
 }
 

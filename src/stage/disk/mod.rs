@@ -12,7 +12,8 @@ mod words;
 pub use colours::DeflectionColours;
 pub use motion::{DiskInstant, DiskMotion};
 
-use super::layout::Layout;
+use super::Solution;
+use super::layout::{Layout, Shown};
 use super::palette::Palette;
 use crate::render::{Camera, DrawList, Light};
 use crate::scene::{CameraMove, Case, Direction, View};
@@ -21,13 +22,24 @@ use model::DiskModel;
 use panels::{Frame, Panels};
 use words::Words;
 
-/// Middle of the disk, half of the width and height that show all of it, and the camera's distance; drawing units.
+/// Middle of the disk, radius and half the height of a ring that holds the tips of the blades with their numbers, and the camera's
+/// distance; drawing units.
 const MIDDLE: Vec3 = Vec3::new(0.0, 0.85, 0.0);
-const EXTENT: [f32; 2] = [2.8, 1.62];
+const RING: [f32; 2] = [2.55, 0.3];
 const DISTANCE: f32 = 10.0;
 /// From where a disk is seen unless its scene says.
 const VIEW: View = View { azimuth: -12.0, elevation: 36.0, zoom: 1.0, shift: [0.0; 3] };
 const SMALLEST: f64 = 1e-9;
+
+/// What a camera shows: points round the ring.
+fn shown() -> Shown {
+    let [radius, half] = RING;
+    let around = (0..24).flat_map(|n| {
+        let (sin, cos) = (std::f32::consts::TAU * n as f32 / 24.0).sin_cos();
+        [-half, half].map(|y| MIDDLE + Vec3::new(radius * cos, y, radius * sin))
+    });
+    Shown { points: around.collect(), middle: MIDDLE, distance: DISTANCE }
+}
 
 /// One film of a disk.
 #[derive(Debug, Clone)]
@@ -35,6 +47,7 @@ pub struct DiskStage {
     case: Case,
     motion: DiskMotion,
     exact: Option<DiskMotion>,
+    solution: Option<Solution>,
     palette: Palette,
     layout: Layout,
     model: DiskModel,
@@ -54,7 +67,13 @@ impl DiskStage {
         let panels = Panels::new(&case, &frame, &layout.panels);
         let model = DiskModel::new(&disk, colours, case.direction.magnification as f32, palette);
         let words = Words::new(&disk, &motion, &model, layout.scale, palette);
-        Some(Self { exact, palette, layout, model, panels, words, case, motion })
+        Some(Self { exact, solution: None, palette, layout, model, panels, words, case, motion })
+    }
+
+    /// Says what computed the motion.
+    #[must_use]
+    pub fn computed_by(self, solution: Solution) -> Self {
+        Self { solution: Some(solution), ..self }
     }
 
     /// Frames that show the motion from its start to its end; fewer than the scene asks for where the motion diverged.
@@ -109,7 +128,7 @@ impl DiskStage {
         let caption = self.case.direction.caption(seconds).unwrap_or((&self.case.caption, 1.0));
         self.words.draw_headline(&self.case.title, caption, &self.layout, &mut overlay);
         let apart = self.exact.as_ref().filter(|exact| time <= exact.end()).map(|exact| self.distance(&now, exact));
-        self.words.draw_status(&now, apart, &self.layout, &mut overlay);
+        self.words.draw_status(&now, (apart, self.solution.as_ref()), &self.layout, &mut overlay);
         self.panels.draw(&self.motion, &now, &mut overlay);
         DrawList {
             size,
@@ -140,6 +159,6 @@ impl DiskStage {
         let view = if *camera == CameraMove::default() { VIEW } else { camera.view(seconds, length) };
         let shift = Vec3::from(view.shift.map(|shift| shift as f32));
         let direction = [view.azimuth, view.elevation].map(|angle| angle.to_radians() as f32);
-        self.layout.camera(MIDDLE + shift, direction, DISTANCE, EXTENT.map(|half| half / view.zoom as f32))
+        self.layout.camera(&shown(), direction, view.zoom as f32, shift)
     }
 }

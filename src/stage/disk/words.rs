@@ -5,6 +5,7 @@ use super::model::DiskModel;
 use super::motion::{DiskInstant, DiskMotion};
 use crate::model::{BladedDisk, Topology};
 use crate::render::{Anchor, Camera, Colour, OverlayItem, Rectangle, Stroke};
+use crate::stage::Solution;
 use crate::stage::labels;
 use crate::stage::layout::Layout;
 use crate::stage::numbers;
@@ -100,7 +101,13 @@ impl Words {
     }
 
     /// Contacts and time at the left, the disk and what is magnified at the right of the lines below the scene.
-    pub fn draw_status(&self, now: &DiskInstant, apart: Option<f64>, layout: &Layout, out: &mut Vec<OverlayItem>) {
+    pub fn draw_status(
+        &self,
+        now: &DiskInstant,
+        (apart, solution): (Option<f64>, Option<&Solution>),
+        layout: &Layout,
+        out: &mut Vec<OverlayItem>,
+    ) {
         let (s, palette, origin, right) =
             (self.scale, &self.palette, layout.status(), layout.scene.max.x - 14.0 * self.scale);
         let slipping = now.contacts.iter().filter(|contact| !contact.is_stick()).count();
@@ -129,14 +136,17 @@ impl Words {
             bold: true,
             text: format!("t = {:.1}", now.time),
         });
+        if let Some(solution) = solution {
+            labels::draw_solution(solution, palette, origin - Vec2::new(0.0, labels::ABOVE[0]) * s, s, out);
+        }
         let lower = Vec2::new(right, origin.y + 22.0 * s);
         out.push(self.text(lower, Anchor::Right, 14.0, palette.faint_text, self.parameters.clone()));
         let upper = Vec2::new(right, origin.y + 4.0 * s);
         out.push(self.text(upper, Anchor::Right, 12.0, palette.faint_text, self.magnified.clone()));
         if let Some(apart) = apart {
-            let place = Vec2::new(origin.x, origin.y - 12.0 * s);
+            let place = origin - Vec2::new(0.0, labels::ABOVE[1]) * s;
             let text = format!("exact solution {} away", numbers::with_power(apart));
-            out.push(self.text(place, Anchor::Left, 12.0, palette.faint_text, text));
+            out.push(self.text(place, Anchor::Left, 13.0, palette.faint_text, text));
         }
         self.draw_key(layout, out);
     }

@@ -110,8 +110,7 @@ impl Map {
         let x = -self.xi1.at(now.time);
         plot.draw_line([(x, plot.y.min), (x, plot.y.max)].into_iter(), 1.2, colour.with_alpha(0.6), out);
         self.draw_legend(out);
-        if let Some([_, last]) = self.envelope.known(now.time) {
-            let amplitude = self.envelope.at(last) * self.scales.length;
+        if let Some(amplitude) = self.envelope.last(now.time).map(|amplitude| amplitude * self.scales.length) {
             if amplitude > plot.y.max {
                 plot.draw_beyond(x, colour, out);
             } else {

@@ -3,6 +3,7 @@
 mod amplitudes;
 pub(super) mod bars;
 pub(super) mod energy;
+pub(super) mod full_scale;
 mod map;
 mod planes;
 mod series;

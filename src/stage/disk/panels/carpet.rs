@@ -49,7 +49,7 @@ impl Carpet {
     pub fn draw(&self, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
         let window = self.plot.x.max;
         let end = now.time.max(window);
-        let plot = Plot { x: Axis { tick: self.plot.x.tick, ..Axis::exactly(end - window, end) }, ..self.plot.clone() };
+        let plot = Plot { x: self.plot.x.slid_to(end - window, end), ..self.plot.clone() };
         plot.draw_frame(out);
         let first = ((end - window) / COLUMN).ceil() as usize;
         // Whole columns alone: rounding may put the end of one just after now.

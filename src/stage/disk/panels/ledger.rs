@@ -4,16 +4,15 @@
 use super::Frame;
 use crate::render::{OverlayItem, Rectangle};
 use crate::stage::disk::motion::{DiskInstant, DiskMotion};
-use crate::stage::panels::bars::{Bar, Bars, written};
+use crate::stage::panels::bars::{Bar, Bars, largest, written};
 use crate::stage::panels::energy::change;
+use crate::stage::panels::full_scale::FullScale;
 use std::f64::consts::TAU;
-
-/// Instants looked at for the largest bar.
-const LOOKED_AT: u32 = 300;
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
     bars: Bars,
+    full: FullScale,
     period: f64,
 }
 
@@ -22,10 +21,9 @@ impl Ledger {
         let Frame { motion, scale, palette, .. } = *frame;
         let title = "Energy in the last period".to_owned();
         let period = TAU / motion.angular_frequency();
-        let mut panel = Self { bars: Bars { place, scale, palette, title, largest: 0.0 }, period };
-        let times = (0..=LOOKED_AT).map(|n| motion.end() * f64::from(n) / f64::from(LOOKED_AT));
-        let largest = times.flat_map(|time| panel.entries(motion, &motion.at(time))).map(|bar| bar.value.abs());
-        panel.bars.largest = largest.fold(1e-9, f64::max);
+        let bars = Bars { place, scale, palette, title, unit: 1.0 };
+        let mut panel = Self { bars, period, full: FullScale::default() };
+        panel.full = FullScale::new(motion.end(), |time| largest(&panel.entries(motion, &motion.at(time))));
         panel
     }
 
@@ -44,6 +42,6 @@ impl Ledger {
     }
 
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
-        self.bars.draw(self.entries(motion, now), out);
+        self.bars.draw(self.entries(motion, now), self.full.at(now.time), out);
     }
 }

@@ -32,7 +32,7 @@ impl Series {
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
         let window = self.plot.x.max;
         let end = now.time.max(window);
-        let plot = Plot { x: Axis { tick: self.plot.x.tick, ..Axis::exactly(end - window, end) }, ..self.plot.clone() };
+        let plot = Plot { x: self.plot.x.slid_to(end - window, end), ..self.plot.clone() };
         plot.draw_frame(out);
         let palette = plot.palette;
         let colours = [palette.masses[0], palette.masses[1], palette.excitation];
