@@ -3,7 +3,7 @@
 //! In the nominal two-mass rig a pair of multipliers of the limit cycle leaves the unit circle at xi1 = -0.0345753708. The engine's limit cycle
 //! is a periodic orbit of the map that n of its steps are (`hopf`), one for each phase, and does so elsewhere.
 //!
-//! How far off a phase is: with the recipe the state is of second order, but a perturbation of it feels the spring of the element
+//! How far off a phase is: with friction sampled at the steps the state is of second order, but a perturbation of it feels the spring of the element
 //! in a whole number N of steps, not over the time t_s of the stick phase. For the multipliers this is a stick phase too long by
 //! `e = (N + 1/2) h - t_s`, between -h and h. In the exact solution, a stick phase that is longer by e for perturbations alone moves
 //! the modulus of the half-period pair at the Hopf point by `7.1e-5 e - 0.0672 e^2`, and the Hopf point by
@@ -99,7 +99,7 @@ impl Scenario for SecondaryHopf {
 
 /// Of the error times n² where friction is averaged.
 const AVERAGED_BOUND: f64 = 0.3;
-const NOT_IN_F32: &str = "below the floor of f32: n/2 steps round the state by 6e-8 sqrt(n/2), 1e-6 at 512 steps, so that a difference of 1e-4, about the longest that moves no switch to another step, knows a derivative and with it a multiplier to 1 %, and ξ₁ to 1 %/0.3 = 0.03, as large as the number sought; at 64 steps, where a hundredfold difference would do, the orbit itself is known to 1e-6 only, and the recipe is off by 2e-4 anyway";
+const NOT_IN_F32: &str = "below the floor of f32: n/2 steps round the state by 6e-8 sqrt(n/2), 1e-6 at 512 steps, so that a difference of 1e-4, about the longest that moves no switch to another step, knows a derivative and with it a multiplier to 1 %, and ξ₁ to 1 %/0.3 = 0.03, as large as the number sought; at 64 steps, where a hundredfold difference would do, the orbit itself is known to 1e-6 only, and the second-order scheme is off by 2e-4 anyway";
 
 /// The acceptance of the finest step: every phase by itself.
 const EVERY_PHASE: &str = "secondary_hopf_every_phase";
@@ -221,7 +221,7 @@ impl Study<'_> {
         rows
     }
 
-    /// Largest error times n²: bounded for the recipe, that of the difference equation where friction is averaged.
+    /// Largest error times n²: bounded by a formula where friction is sampled, that of the difference equation where friction is averaged.
     fn scaled_row(&self, at: &Subject, steps: u32, found: &[HopfPoint], expected: &[HopfPoint], blur: f64) -> Row {
         let n = f64::from(steps);
         let scaled =
