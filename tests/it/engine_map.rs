@@ -188,7 +188,7 @@ fn with_friction_averaged_over_the_step_the_hopf_point_is_of_second_order_at_eve
         let problem = CycleProblem::symmetric(ENGINE, AVERAGED, steps, 0.0);
         let n = steps as f64;
         for p in over_phases(&problem, 16, EXACT_HOPF).unwrap() {
-            // Measured 0.047 + 15/n, by the difference equation with exact derivatives (dual numbers); rounding of the search.
+            // 0.0464 + 15/n by the modified equation, see `modified_hopf`, and a little for the next order; rounding of the search.
             assert!((p.xi1 - EXACT_HOPF).abs() * n * n < 0.06 + 16.0 / n + 5e-9 * n * n, "{steps}: {p:?}");
             assert!(p.jump == 0.0);
         }

@@ -69,6 +69,8 @@ mod lyapunov;
 #[cfg(feature = "cli")]
 mod mechanisms;
 #[cfg(feature = "cli")]
+mod modified_hopf;
+#[cfg(feature = "cli")]
 mod motor_rounding;
 #[cfg(feature = "engine")]
 mod numerical_damping;
