@@ -68,6 +68,10 @@ mod layering;
 mod lyapunov;
 #[cfg(feature = "cli")]
 mod mechanisms;
+#[cfg(feature = "cli")]
+mod modified_hopf;
+#[cfg(feature = "cli")]
+mod motor_rounding;
 #[cfg(feature = "engine")]
 mod numerical_damping;
 mod orbits;
