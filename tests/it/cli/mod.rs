@@ -1,6 +1,7 @@
 //! The command line as a user meets it: exit statuses, messages, JSON documents.
 
 mod analysis;
+mod frames;
 mod generated;
 mod input;
 mod render;
@@ -31,6 +32,14 @@ pub fn refused(args: &[&str], words: &[&str]) {
 
 pub fn document(args: &[&str]) -> Value {
     let output = stickslip(args);
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The same on so many threads.
+fn document_on(threads: usize, args: &[&str]) -> Value {
+    let mut command = Command::cargo_bin("stickslip").unwrap();
+    let output = command.env("RAYON_NUM_THREADS", threads.to_string()).args(args).output().unwrap();
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
 }

@@ -1,6 +1,7 @@
 //! `render`: films of stored trajectories, single pictures, frames with alpha.
 
 use super::{document, refused, scene_file, stickslip};
+use std::fs;
 use std::path::Path;
 
 #[test]
@@ -79,4 +80,27 @@ fn a_transparent_background_gives_frames_with_alpha_and_no_film() {
     assert!(stickslip(&[&args[..], &[still.to_str().unwrap()]].concat()).status.success());
     assert!(matches!(image::open(still).unwrap(), image::DynamicImage::ImageRgba8(_)));
     refused(&[&with[..], &["--background", "theme"]].concat(), &["background", "--force"]);
+}
+
+/// Pictures can have any size; H.264 needs even sides, so the film of odd ones is a little larger, which is said.
+#[test]
+fn odd_sizes_are_those_of_the_pictures_and_the_film_is_even() {
+    let folder = tempfile::tempdir().unwrap();
+    let (still, film) = (folder.path().join("still.png"), folder.path().join("film"));
+    let render = |options: &[&str]| {
+        let args = ["render", "--with", "exact", "--t-end", "4", "--fps", "4", "--renderer", "cpu"];
+        let output = stickslip(&[&args[..], options].concat());
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{told}");
+        told
+    };
+    let size = |path: &Path| image::open(path).unwrap().to_rgba8().dimensions();
+    let told = render(&["--at", "3.3", "--size", "321x181", "-o", still.to_str().unwrap()]);
+    assert_eq!(size(&still), (321, 181));
+    assert!(!told.contains("H.264"), "{told}");
+    let told = render(&["--size", "65x97", "-o", film.to_str().unwrap()]);
+    assert!(told.contains("H.264 needs even sides"), "{told}");
+    assert_eq!(size(&film.join("frames/000002.png")), (65, 97));
+    assert_eq!(crate::film::mp4::read(&fs::read(film.join("film.mp4")).unwrap()).size, [66, 98]);
+    refused(&["render", "--size", "63x64"], &["film.width", "width = 63", "from 64 to 7680"]);
 }

@@ -71,3 +71,37 @@ fn a_story_is_filmed_scene_by_scene_and_its_manifest_says_what_each_frame_shows(
     refused(&["animate", directory, "-o", "film.avi"], &[".gif"]);
     refused(&["contact-sheet", folder.path().to_str().unwrap()], &["manifest"]);
 }
+
+/// 13 frames of a motion that lasts and at most 61 (40 time units at 8 a second, 12 a second, and the one at time 0) of one that escapes.
+#[test]
+fn frames_beyond_a_story_whose_motion_ends_early_are_refused_with_the_number_there_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |title: &str, duration: f64, rest: &str| {
+        format!(
+            "[[scene]]\ntitle = \"{title}\"\n[scene.initial]\nstart = \"state\"\n{rest}\n[scene.film]\nwidth = 64\nheight = 64\n\
+             fps = 12\n[scene.check]\nhorizon = 8.0\n[scene.simulation]\nduration = {duration}\namplitude_bound = 12.0\n"
+        )
+    };
+    let text = scene("lasts", 8.0, "state = [0.2, 0.2, 0.0, 0.0, 0.2]")
+        + &scene("escapes", 40.0, "state = [3.0, 3.0, 0.0, 0.0, 0.0]\n[scene.rig]\nxi1 = -0.4");
+    let (story, output) = (folder.path().join("story.toml"), folder.path().join("film"));
+    fs::write(&story, text).unwrap();
+    let run = |frames: &str| {
+        let output = ["run", "--story", story.to_str().unwrap(), "--renderer", "cpu", "-o", output.to_str().unwrap()];
+        let result = stickslip(&[&output[..], &["--frames", frames]].concat());
+        (result.status.code(), String::from_utf8_lossy(&result.stderr).into_owned())
+    };
+    let (code, told) = run("0:75");
+    assert!(code == Some(2) && told.contains("--frames 0:75 is beyond the film: it has at most 74 frames"), "{told}");
+    assert!(!output.exists());
+    let (code, told) = run("0:74");
+    let left = told.split("its motion ended early and left it ").nth(1).and_then(|rest| rest.split(' ').next());
+    let count: u64 = left.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{code:?}: {told}"));
+    assert!(code == Some(2) && (14..74).contains(&count), "{told}");
+    // The same number where the frames are drawn.
+    let (code, told) = run(&format!("{}:{count}", count - 2));
+    let summary = format!("film: 2 frames ({}:{count} of {count}), 2 drawn, 0 reused", count - 2);
+    assert!(code == Some(0) && told.contains("film: 2 of 2 frames") && told.contains(&summary), "{told}");
+    let (code, told) = run(&format!("{}:{}", count - 2, count + 1));
+    assert!(code == Some(2) && told.contains(&format!("left it {count} frames")), "{told}");
+}
