@@ -52,7 +52,7 @@ pub struct DrawArgs {
     #[arg(long, value_name = "A:B", value_parser = parse_frames)]
     pub frames: Option<Range<u64>>,
     /// Draw the Kth of N equal parts of the frames only, and no film; for many machines that share a directory, or whose directories are
-    /// put together.
+    /// put together: all frames in one, and its outputs.jsonl followed by the others'.
     #[arg(long, value_name = "K/N", value_parser = parse_shard, conflicts_with = "frames")]
     pub shard: Option<[u64; 2]>,
     /// Draw frames this many times as wide and high and make them smaller: smoother edges for as much more time, squared.

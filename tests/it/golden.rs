@@ -249,7 +249,9 @@ fn a_story_without_its_direction_is_found() {
         let (motion, beside) = shown(golden, &case);
         assert!(is_found(&Stage::new(case, motion, beside).frame(golden.frame), golden));
     }
-    let is_strip = |item: &OverlayItem| matches!(item, OverlayItem::Box { corner_radius: 0.0, .. });
+    let [_, height] = whole.size.map(|side| side as f32);
+    let is_strip =
+        |item: &OverlayItem| matches!(item, OverlayItem::Box { area, .. } if area.max.y - area.min.y == height);
     let shade: Vec<usize> = (0..whole.overlay.len()).filter(|&i| is_strip(&whole.overlay[i])).collect();
     assert!(!shade.is_empty() && is_found(&without(&whole, &shade), golden));
 }

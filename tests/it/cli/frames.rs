@@ -5,8 +5,10 @@ use crate::film::mp4;
 use crate::film::video::bt709;
 use crate::golden::on_cpu;
 use image::RgbaImage;
+use serde_json::Value;
 use std::fs;
-use std::path::Path;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use stickslip::dynamics::{Flow, Sampling, State};
 use stickslip::exact::TwoMassFlow;
 use stickslip::model::TwoMassRig;
@@ -37,59 +39,101 @@ fn nearest(picture: &RgbaImage, frames: &[RgbaImage]) -> usize {
     (0..frames.len()).min_by_key(|&index| apart(&frames[index])).unwrap()
 }
 
-/// Pictures `A:B` of a film.
-fn stored(directory: &Path, frames: std::ops::Range<usize>) -> Vec<RgbaImage> {
-    let path = |index| directory.join(format!("frames/{index:06}.png"));
-    frames.map(|index| image::open(path(index)).unwrap().to_rgba8()).collect()
+/// Films of the scene, and what their frames have to be.
+struct Films {
+    folder: tempfile::TempDir,
+    frames: Vec<RgbaImage>,
+    /// The film made at once.
+    whole: PathBuf,
 }
 
-fn filmed(directory: &Path) -> Vec<RgbaImage> {
-    mp4::read(&fs::read(directory.join("film.mp4")).unwrap()).decode().iter().map(bt709).collect()
+impl Films {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let whole = folder.path().join("whole");
+        let mut films = Self { folder, frames: Vec::new(), whole };
+        let json = films.render("whole", 1, &[]);
+        films.frames = drawn(serde_json::from_value(json["parameters"]["case"].clone()).unwrap());
+        assert_eq!(films.frames.len(), COUNT);
+        films
+    }
+
+    fn place(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn render(&self, name: &str, threads: usize, options: &[&str]) -> Value {
+        let (scene, output) = (scene_file(self.folder.path(), SCENE), self.place(name));
+        let args = ["render", &scene, "--with", "exact", "--renderer", "cpu", "--json", "-q", "-o"];
+        document_on(threads, &[&args[..], &[output.to_str().unwrap()], options].concat())
+    }
+
+    fn numbers(&self, pictures: &[RgbaImage]) -> Vec<usize> {
+        pictures.iter().map(|picture| nearest(picture, &self.frames)).collect()
+    }
+
+    /// The frames of `range` are there and in order.
+    fn check_pictures(&self, name: &str, range: Range<usize>) {
+        assert_eq!(self.numbers(&stored(&self.place(name), range.clone())), range.collect::<Vec<_>>(), "{name}");
+    }
+
+    /// So is the whole film, which has the bytes of the one made at once.
+    fn check(&self, name: &str) {
+        self.check_pictures(name, 0..COUNT);
+        let bytes = fs::read(self.place(name).join("film.mp4")).unwrap();
+        let filmed: Vec<RgbaImage> = mp4::read(&bytes).decode().iter().map(bt709).collect();
+        assert_eq!(self.numbers(&filmed), (0..COUNT).collect::<Vec<_>>(), "{name}");
+        assert!(bytes == fs::read(self.whole.join("film.mp4")).unwrap(), "{name}");
+    }
+}
+
+/// Pictures of a film by their numbers.
+fn stored(directory: &Path, range: Range<usize>) -> Vec<RgbaImage> {
+    let path = |index| directory.join(format!("frames/{index:06}.png"));
+    range.map(|index| image::open(path(index)).unwrap().to_rgba8()).collect()
 }
 
 #[test]
-fn every_picture_is_the_one_of_its_number_however_the_film_was_made() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = scene_file(folder.path(), SCENE);
-    let render = |name: &str, threads: usize, options: &[&str]| {
-        let output = folder.path().join(name);
-        let args = ["render", &scene, "--with", "exact", "--renderer", "cpu", "--json", "-q", "-o"];
-        (document_on(threads, &[&args[..], &[output.to_str().unwrap()], options].concat()), output)
-    };
-    let (json, whole) = render("whole", 1, &[]);
-    let frames = drawn(serde_json::from_value(json["parameters"]["case"].clone()).unwrap());
-    assert_eq!(frames.len(), COUNT);
-    let numbers = |pictures: &[RgbaImage]| pictures.iter().map(|p| nearest(p, &frames)).collect::<Vec<_>>();
-    let in_order: Vec<usize> = (0..COUNT).collect();
-    let check = |directory: &Path| {
-        assert_eq!(numbers(&stored(directory, 0..COUNT)), in_order);
-        assert_eq!(numbers(&filmed(directory)), in_order);
-        assert!(fs::read(directory.join("film.mp4")).unwrap() == fs::read(whole.join("film.mp4")).unwrap());
-    };
-    check(&whole);
-    // Negative control: pictures that are one too late, the first of them twice.
-    let late: Vec<RgbaImage> = stored(&whole, 0..1).into_iter().chain(stored(&whole, 0..COUNT - 1)).collect();
-    assert_eq!(numbers(&late)[..3], [0, 0, 1]);
-
+fn every_picture_is_the_one_of_its_number_on_any_number_of_threads_and_after_a_loss() {
+    let films = Films::new();
+    films.check("whole");
+    // Negative control: pictures that come one too late, the first of them twice.
+    let late = [stored(&films.whole, 0..1), stored(&films.whole, 0..COUNT - 1)].concat();
+    assert_eq!(films.numbers(&late)[..3], [0, 0, 1]);
+    films.render("threads", 4, &[]);
+    films.check("threads");
     for missing in ["frames/000000.png", "frames/000009.png", "frames/000010.png", "frames/000020.png", "film.mp4"] {
-        fs::remove_file(whole.join(missing)).unwrap();
+        fs::remove_file(films.place("threads").join(missing)).unwrap();
     }
-    let bytes = render("again", 4, &[]).1;
-    assert_eq!(render("whole", 4, &[]).0["frames"]["drawn"], 4);
-    assert!(fs::read(bytes.join("film.mp4")).unwrap() == fs::read(whole.join("film.mp4")).unwrap());
-    check(&whole);
+    assert_eq!(films.render("threads", 3, &[])["frames"]["drawn"], 4);
+    films.check("threads");
+}
 
-    let parts = render("parts", 3, &["--frames", "7:21"]).1;
-    assert_eq!(numbers(&stored(&parts, 7..COUNT)), in_order[7..]);
-    assert!(!parts.join("frames/000006.png").exists() && !parts.join("film.mp4").exists());
-    render("parts", 3, &["--frames", "0:7"]);
-    assert_eq!(render("parts", 2, &[]).0["frames"]["drawn"], 0);
-    check(&parts);
-
-    for (part, begin, end) in [("2/3", 7, 14), ("3/3", 14, 21), ("1/3", 0, 7)] {
-        let (json, shards) = render("shards", 2, &["--shard", part]);
-        assert_eq!(json["frames"]["drawn"], 7);
-        assert_eq!(numbers(&stored(&shards, begin..end)), in_order[begin..end]);
+#[test]
+fn ranges_and_shards_are_the_frames_of_their_numbers_and_make_the_film() {
+    let films = Films::new();
+    films.render("parts", 3, &["--frames", "7:21"]);
+    films.check_pictures("parts", 7..COUNT);
+    assert!(!films.place("parts/frames/000006.png").exists() && !films.place("parts/film.mp4").exists());
+    films.render("parts", 3, &["--frames", "0:7"]);
+    assert_eq!(films.render("parts", 2, &[])["frames"]["drawn"], 0);
+    films.check("parts");
+    // Each third in a place of its own; put together, their journals one after the other, they are the film.
+    let together = films.place("2");
+    for (shard, range) in [("2", 7..14), ("3", 14..21), ("1", 0..7)] {
+        assert_eq!(films.render(shard, 2, &["--shard", &format!("{shard}/3")])["frames"]["drawn"], 7);
+        films.check_pictures(shard, range.clone());
+        let place = films.place(shard);
+        if place == together {
+            continue;
+        }
+        for name in range.map(|index| format!("frames/{index:06}.png")) {
+            fs::copy(place.join(&name), together.join(&name)).unwrap();
+        }
+        let mut journal = fs::read(together.join("outputs.jsonl")).unwrap();
+        journal.extend(fs::read(place.join("outputs.jsonl")).unwrap());
+        fs::write(together.join("outputs.jsonl"), journal).unwrap();
     }
-    check(&render("shards", 1, &[]).1);
+    assert_eq!(films.render("2", 1, &[])["frames"]["drawn"], 0);
+    films.check("2");
 }
