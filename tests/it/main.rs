@@ -13,10 +13,6 @@ mod browser;
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
-#[cfg(feature = "cli")]
-mod cli_analysis;
-#[cfg(feature = "cli")]
-mod cli_slow_flow;
 #[cfg(feature = "engine")]
 mod compare;
 #[cfg(feature = "cli")]
