@@ -56,7 +56,8 @@ impl Scene {
         field("disk_start.noise", Range::NonNegative, start.noise)?;
         for (number, wave) in start.waves.iter().enumerate() {
             let path = format!("disk_start.waves[{number}].nodal_diameter");
-            NodalDiameter::checked("nodal_diameter", wave.nodal_diameter, disk.sectors).map_err(|f| (path, f.into()))?;
+            NodalDiameter::checked("nodal_diameter", wave.nodal_diameter, disk.sectors)
+                .map_err(|f| (path, f.into()))?;
             field("disk_start.waves", Range::Finite, wave.amplitude)?;
             field("disk_start.waves", Range::Finite, wave.phase)?;
         }
@@ -98,7 +99,8 @@ mod tests {
             let wave = format!("[[disk_start.waves]]\nnodal_diameter = {n}\namplitude = 1.0\n");
             let found = message(&format!("{disk}{wave}"));
             let place = "line 4, field disk_start.waves[0].nodal_diameter: ";
-            let fault = format!("nodal_diameter = {n} is not allowed: with 12 sectors it must be a whole number from -5 to 6");
+            let fault =
+                format!("nodal_diameter = {n} is not allowed: with 12 sectors it must be a whole number from -5 to 6");
             assert!(found.ends_with(&format!("{place}{fault}")), "{found}");
         }
         // Negative control: the outermost ones are there.

@@ -2,14 +2,17 @@
 //! direction of travel), what damping and friction took out, what is stored more than a period before, and what is left over.
 
 use super::Frame;
-use crate::render::{OverlayItem, Rectangle};
+use crate::render::{Anchor, OverlayItem, Rectangle};
 use crate::stage::disk::motion::{DiskInstant, DiskMotion};
 use crate::stage::panels::bars::{Bar, Bars, written};
 use crate::stage::panels::energy::change;
+use glam::Vec2;
 use std::f64::consts::TAU;
 
 /// Instants looked at for the largest bar.
 const LOOKED_AT: u32 = 300;
+/// The scale follows the longest bar, so that what balances what is seen at small amplitudes too, down to this part of the film's longest.
+const LEAST: f64 = 0.01;
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
@@ -20,7 +23,7 @@ pub(super) struct Ledger {
 impl Ledger {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let Frame { motion, scale, palette, .. } = *frame;
-        let title = "Energy in the last period".to_owned();
+        let title = "Energy in one period".to_owned();
         let period = TAU / motion.angular_frequency();
         let mut panel = Self { bars: Bars { place, scale, palette, title, largest: 0.0 }, period };
         let times = (0..=LOOKED_AT).map(|n| motion.end() * f64::from(n) / f64::from(LOOKED_AT));
@@ -44,6 +47,23 @@ impl Ledger {
     }
 
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
-        self.bars.draw(self.entries(motion, now), out);
+        let entries = self.entries(motion, now);
+        let longest = entries.iter().map(|bar| bar.value.abs()).fold(LEAST * self.bars.largest, f64::max);
+        let bars = Bars { largest: longest, ..self.bars.clone() };
+        bars.draw(entries, out);
+        out.push(OverlayItem::Text {
+            position: Vec2::new(bars.place.max.x - 12.0 * bars.scale, bars.place.min.y + 19.0 * bars.scale),
+            anchor: Anchor::Right,
+            size: 11.0 * bars.scale,
+            colour: bars.palette.faint_text,
+            bold: false,
+            text: format!("full bar: {}", significant(longest)),
+        });
     }
+}
+
+/// Two significant digits.
+fn significant(value: f64) -> String {
+    let digits = (1.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.digits$}")
 }

@@ -30,8 +30,8 @@ impl Bars {
         let [first, last] = names.range();
         let axes = [Axis::exactly(first as f64 - 0.6, last as f64 + 0.6), Axis::exactly(0.0, 1.18 * largest)];
         let (title, label) = match frame.disk.topology {
-            Topology::Ring => ("Waves by nodal diameter", "nodal diameter n"),
-            Topology::Chain => ("Standing modes of the chain", "mode (half waves)"),
+            Topology::Ring => ("Waves by nodal diameter", "n"),
+            Topology::Chain => ("Standing modes of the chain", "mode"),
         };
         let plot = frame.plot(place, title, [label, "amplitude"], axes);
         let x = Axis { tick: plot.x.tick.max(1.0).round(), ..plot.x };
