@@ -21,9 +21,9 @@ use model::DiskModel;
 use panels::{Frame, Panels};
 use words::Words;
 
-/// Middle of the disk, half of the width and height that show all of it, and the camera's distance; drawing units.
+/// Middle of the disk, half of the width and height that show all of it with the words beside it, and the camera's distance; drawing units.
 const MIDDLE: Vec3 = Vec3::new(0.0, 0.85, 0.0);
-const EXTENT: [f32; 2] = [2.8, 1.62];
+const EXTENT: [f32; 2] = [3.75, 1.62];
 const DISTANCE: f32 = 10.0;
 /// From where a disk is seen unless its scene says.
 const VIEW: View = View { azimuth: -12.0, elevation: 36.0, zoom: 1.0, shift: [0.0; 3] };

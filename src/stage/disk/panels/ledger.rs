@@ -4,6 +4,7 @@
 use super::Frame;
 use crate::render::{Anchor, OverlayItem, Rectangle};
 use crate::stage::disk::motion::{DiskInstant, DiskMotion};
+use crate::stage::numbers;
 use crate::stage::panels::bars::{Bar, Bars, written};
 use crate::stage::panels::energy::change;
 use glam::Vec2;
@@ -23,7 +24,7 @@ pub(super) struct Ledger {
 impl Ledger {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let Frame { motion, scale, palette, .. } = *frame;
-        let title = "Energy in one period".to_owned();
+        let title = "Energy per period".to_owned();
         let period = TAU / motion.angular_frequency();
         let mut panel = Self { bars: Bars { place, scale, palette, title, largest: 0.0 }, period };
         let times = (0..=LOOKED_AT).map(|n| motion.end() * f64::from(n) / f64::from(LOOKED_AT));
@@ -64,6 +65,9 @@ impl Ledger {
 
 /// Two significant digits.
 fn significant(value: f64) -> String {
-    let digits = (1.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
+    if value < 0.01 {
+        return numbers::with_power(value);
+    }
+    let digits = (1.0 - value.log10().floor()).max(0.0) as usize;
     format!("{value:.digits$}")
 }

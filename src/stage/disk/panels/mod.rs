@@ -183,7 +183,7 @@ impl Panels {
         for panel in &self.drawn {
             match panel {
                 Drawn::Carpet(panel) => panel.draw(motion, now, out),
-                Drawn::Spectrum(panel) => panel.draw(now, out),
+                Drawn::Spectrum(panel) => panel.draw(motion, now, out),
                 Drawn::Waves(panel) => panel.draw(motion, now, out),
                 Drawn::Series(panel) => panel.draw(motion, now, out),
                 Drawn::Contact(panel) => panel.draw(motion, now, out),

@@ -29,7 +29,7 @@ pub(super) struct Waves {
 }
 
 /// Mean amplitudes of all waves over the period before `time`, or since the start.
-fn means(motion: &DiskMotion, spectrum: &Spectrum, time: f64, period: f64) -> Vec<f64> {
+pub(super) fn means(motion: &DiskMotion, spectrum: &Spectrum, time: f64, period: f64) -> Vec<f64> {
     let mut sum = vec![0.0; motion.blades()];
     for n in 0..INSTANTS {
         let now = motion.at((time - period * f64::from(n) / f64::from(INSTANTS)).max(0.0));
