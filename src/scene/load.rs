@@ -88,6 +88,8 @@ fn line_of(text: &str, field: &str) -> Option<usize> {
     let mut table = document.get_ref();
     let mut line = None;
     for key in field.split('.') {
+        // An entry of a list stands on the line where the list begins.
+        let key = key.split('[').next().unwrap_or(key);
         let (name, value) = table.iter().find(|(name, _)| name.get_ref() == key)?;
         line = Some(line_at(text, name.span().start));
         match value.get_ref() {

@@ -17,7 +17,7 @@ fn a_disk_is_simulated_checked_filmed_and_resumed() {
     let json = document(&args);
     assert_eq!(json["agreement"]["passed"], true, "{}", json["agreement"]);
     assert_eq!(json["engine"]["name"], "rapier3d-f64");
-    // 9 time units at 9 a second and 5 frames a second, the one at time 0 included.
+    // 9 time units at 18 a second, half as fast in slow motion, and 5 frames a second, the one at time 0 included.
     assert_eq!((&json["frames"]["count"], &json["frames"]["drawn"]), (&6.into(), &6.into()));
     let table = fs::read_to_string(output.join("engine.csv")).unwrap();
     assert!(["x11", "v_segment3", "contact7", "work_circulatory"].iter().all(|name| table.contains(name)));

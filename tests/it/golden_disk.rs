@@ -19,7 +19,7 @@ fn list() -> DrawList {
     let (name, text) = BUILT_IN_DISKS.into_iter().find(|(name, _)| *name == "disk_shroud").unwrap();
     let (mut scene, _) = Scene::parse(text, name).unwrap();
     (scene.film.width, scene.film.height, scene.film.fps) = (640, 360, 25);
-    scene.simulation.duration = 40.0;
+    (scene.simulation.duration, scene.film.speed) = (40.0, 9.0);
     scene.direction = stickslip::scene::Direction::default();
     let case = scene.checked(name).unwrap();
     let disk = case.disk.clone().unwrap().disk;

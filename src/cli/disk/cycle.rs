@@ -50,7 +50,7 @@ pub fn run(args: &CycleArgs) -> anyhow::Result<Verdict> {
     let (cycle, how) = match args.wave {
         Some(wave) => {
             ensure!(disk.topology == Topology::Ring, "--wave follows a wave of a ring: leave it out for a chain");
-            let number = NodalDiameter::new(wave, disk.sectors);
+            let number = NodalDiameter::checked("--wave", wave, disk.sectors)?;
             (mistuned_wave(disk, number, args.steps)?, json!({"wave": number.signed(), "steps": args.steps}))
         }
         None => {

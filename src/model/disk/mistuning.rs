@@ -14,8 +14,8 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Harmonic {
-    /// Waves round the ring; N/2 makes blades alternate.
-    pub order: u32,
+    /// Waves round the ring, 0 to N/2; N/2 makes blades alternate.
+    pub order: i64,
     pub amplitude: f64,
     /// Rad.
     #[serde(default)]
@@ -45,12 +45,13 @@ impl Mistuning {
         match self {
             Self::Pattern { deviations } => pattern(deviations, sectors),
             Self::Harmonics { harmonics } => {
-                for harmonic in harmonics {
+                for (number, harmonic) in harmonics.iter().enumerate() {
+                    check_order(number, harmonic.order, sectors)?;
                     Range::Finite.check("mistuning.harmonics.amplitude", harmonic.amplitude)?;
                     Range::Finite.check("mistuning.harmonics.phase", harmonic.phase)?;
                 }
                 let at = |j: usize, h: &Harmonic| {
-                    let turns = (u64::from(h.order) * j as u64) % sectors as u64;
+                    let turns = (h.order * j as i64) % sectors as i64;
                     h.amplitude * (TAU * turns as f64 / sectors as f64 + h.phase).cos()
                 };
                 Ok((0..sectors).map(|j| harmonics.iter().map(|h| at(j, h)).sum()).collect())
@@ -80,6 +81,15 @@ impl Mistuning {
     pub fn is_random(&self) -> bool {
         matches!(self, Self::Normal { .. } | Self::Uniform { .. })
     }
+}
+
+fn check_order(number: usize, found: i64, sectors: usize) -> Result<(), ParameterError> {
+    let most = sectors as i64 / 2;
+    if (0..=most).contains(&found) {
+        return Ok(());
+    }
+    let field = format!("mistuning.harmonics[{number}].order");
+    Err(ParameterError::NoSuchWave { field, found, sectors, least: 0, most })
 }
 
 fn pattern(deviations: &[f64], sectors: usize) -> Result<Vec<f64>, ParameterError> {
@@ -139,5 +149,16 @@ mod tests {
         // Rounding of a cosine.
         assert!(found.iter().zip([0.5, -0.5, 0.5, -0.5, 0.5, -0.5]).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
         assert!(Mistuning::Pattern { deviations: vec![0.1; 5] }.deviations(6).is_err());
+    }
+
+    #[test]
+    fn orders_that_a_ring_does_not_have_are_refused_by_name() {
+        for order in [-1, 4] {
+            let sound = Harmonic { order: 3, amplitude: 0.5, phase: 0.0 };
+            let harmonics = vec![sound, Harmonic { order, ..sound }];
+            let message = Mistuning::Harmonics { harmonics }.deviations(6).unwrap_err().to_string();
+            let expected = format!("mistuning.harmonics[1].order = {order} is not allowed: with 6 sectors");
+            assert!(message.starts_with(&expected) && message.ends_with("from 0 to 3"), "{message}");
+        }
     }
 }

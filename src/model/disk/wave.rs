@@ -1,5 +1,6 @@
 //! Nodal diameters and interblade phase angles of a ring of N blades.
 
+use crate::model::ParameterError;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -31,6 +32,20 @@ impl NodalDiameter {
         let count = sectors.max(1) as i64;
         let n = n.rem_euclid(count);
         Self { signed: if 2 * n > count { n - count } else { n }, sectors: sectors.max(1) }
+    }
+
+    /// The wave number `n` itself, where the ring has it: `-N/2 < n <= N/2`.
+    ///
+    /// # Errors
+    /// [`ParameterError::NoSuchWave`] naming `field`.
+    pub fn checked(field: &str, n: i64, sectors: usize) -> Result<Self, ParameterError> {
+        let wave = Self::new(n, sectors);
+        let count = wave.sectors as i64;
+        if wave.signed == n {
+            return Ok(wave);
+        }
+        let (least, most) = (-(count - 1) / 2, count / 2);
+        Err(ParameterError::NoSuchWave { field: field.to_owned(), found: n, sectors, least, most })
     }
 
     /// All of a ring, in the order 0, 1, -1, 2, -2, ...

@@ -40,12 +40,13 @@ impl DiskGeometry {
         };
         // Many blades are short and stand on a large hub, so that they are apart.
         let hub_radius = if blades > 36 { 1.3 } else { 0.95 };
-        let chord = (1.05 * pitch * hub_radius).min(0.34);
+        let chord = (0.9 * pitch * hub_radius).min(0.34);
         let blade = Blade {
             length: TIP_RADIUS - hub_radius,
             chord: [chord, 1.2 * chord],
             thickness: [0.24 * chord, 0.1 * chord],
-            stagger: [0.5, 1.0],
+            // Nearly level, so that those at either side show their faces, not their edges.
+            stagger: [1.1, 1.35],
             stations: if blades > 36 { 6 } else { 9 },
         };
         Self { blades, topology: disk.topology, pitch, hub_radius, blade }

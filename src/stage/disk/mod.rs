@@ -30,6 +30,10 @@ const DISTANCE: f32 = 10.0;
 /// From where a disk is seen unless its scene says.
 const VIEW: View = View { azimuth: -12.0, elevation: 36.0, zoom: 1.0, shift: [0.0; 3] };
 const SMALLEST: f64 = 1e-9;
+/// Time of the motion in a second of film up to which panels that move with time show their usual stretch.
+const USUAL_SPEED: f64 = 8.0;
+/// Sun on a disk, as a part of that on the rig: colours stand for numbers here and may not be bleached.
+const SUN: f32 = 0.5;
 
 /// What a camera shows: points round the ring.
 fn shown() -> Shown {
@@ -46,6 +50,8 @@ fn shown() -> Shown {
 pub struct DiskStage {
     case: Case,
     motion: DiskMotion,
+    /// Mean period of the motion.
+    period: f64,
     exact: Option<DiskMotion>,
     solution: Option<Solution>,
     palette: Palette,
@@ -63,11 +69,13 @@ impl DiskStage {
         let palette = Palette::of(case.film.theme).before(case.film.background);
         let layout = Layout::new([case.film.width, case.film.height], case.panels().len());
         let colours = DeflectionColours::new(case.film.theme, motion.largest_deflection().max(SMALLEST));
-        let frame = Frame { disk: &disk, motion: &motion, colours, scale: layout.scale, palette };
+        let pace = (case.film.speed / USUAL_SPEED).max(1.0);
+        let frame = Frame { disk: &disk, motion: &motion, colours, pace, scale: layout.scale, palette };
         let panels = Panels::new(&case, &frame, &layout.panels);
         let model = DiskModel::new(&disk, colours, case.direction.magnification as f32, palette);
         let words = Words::new(&disk, &motion, &model, layout.scale, palette);
-        Some(Self { exact, solution: None, palette, layout, model, panels, words, case, motion })
+        let period = std::f64::consts::TAU / motion.angular_frequency();
+        Some(Self { period, exact, solution: None, palette, layout, model, panels, words, case, motion })
     }
 
     /// Says what computed the motion.
@@ -97,7 +105,7 @@ impl DiskStage {
     /// Mean period of the motion.
     #[must_use]
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU / self.motion.angular_frequency()
+        self.period
     }
 
     /// What a frame shows.
@@ -124,12 +132,16 @@ impl DiskStage {
         let size = [self.case.film.width, self.case.film.height];
         let camera = self.camera(seconds);
         let mut overlay = Vec::new();
-        self.words.draw_numbers(&now, &self.model, (&camera, size), &mut overlay);
+        self.words.draw_numbers(&self.model, (&camera, size), &mut overlay);
         let caption = self.case.direction.caption(seconds).unwrap_or((&self.case.caption, 1.0));
         self.words.draw_headline(&self.case.title, caption, &self.layout, &mut overlay);
         let apart = self.exact.as_ref().filter(|exact| time <= exact.end()).map(|exact| self.distance(&now, exact));
-        self.words.draw_status(&now, (apart, self.solution.as_ref()), &self.layout, &mut overlay);
+        // Over a period: how many slip at one moment flickers too fast to be read, and the contacts in the scene show it.
+        let slipping = self.motion.slipped(time - self.period, time).into_iter().filter(|slipped| *slipped).count();
+        let beside = (apart, self.solution.as_ref());
+        self.words.draw_status(&now, slipping, beside, &self.layout, &mut overlay);
         self.panels.draw(&self.motion, &now, &mut overlay);
+        let light = self.palette.light();
         DrawList {
             size,
             background: self.palette.backdrop,
@@ -138,7 +150,8 @@ impl DiskStage {
                 direction: Vec3::new(-0.55, 1.0, 0.5),
                 shadow_centre: MIDDLE,
                 shadow_radius: 3.0,
-                ..self.palette.light()
+                intensity: SUN * light.intensity,
+                ..light
             },
             objects: self.model.objects(&self.motion, &now),
             overlay,

@@ -12,11 +12,16 @@ use std::sync::Arc;
 
 /// Height that the largest deflection of a film reaches at a blade's tip, and half the height of the hub.
 const ROOM: f32 = 0.52;
-const HUB_HALF: f32 = 0.15;
+pub const HUB_HALF: f32 = 0.15;
+/// Inner and outer edge of the hub's upper ring, inside of the blades' feet.
+const RING: [f32; 2] = [0.4, 0.18];
 /// Radius of the line through the tips beyond them, and that of its zero.
 const LINE_BEYOND: f32 = 0.1;
 /// Light given off by a contact that sticks, and one that slips.
 const GLOW: [f32; 2] = [0.0, 0.2];
+/// Radius of what joins two blades at the shroud, and that of the mark in its middle.
+const LINK: f32 = 0.032;
+const PAD: f32 = 0.062;
 /// Points of the line through the tips, at most.
 const MOST_POINTS: usize = 240;
 
@@ -56,7 +61,7 @@ impl DiskModel {
             foot: Arc::new(block(Vec3::new(0.075, 0.045, across), 0.012)),
             root: Arc::new(block(Vec3::new(0.13, 0.085, 1.15 * across), 0.02)),
             shroud: Arc::new(block(Vec3::new(0.05, 0.022, wing), 0.008)),
-            pad: Arc::new(sphere(0.055_f32.min(0.3 * pitch * part), 14)),
+            pad: Arc::new(sphere(PAD.min(0.3 * pitch * part), 14)),
             tip: Arc::new(sphere(if geometry.blades > 36 { 0.022 } else { 0.036 }, 12)),
         }
     }
@@ -65,6 +70,12 @@ impl DiskModel {
     #[must_use]
     pub fn magnification(&self) -> f32 {
         self.magnification
+    }
+
+    /// Radius of the middle of the hub's upper ring.
+    #[must_use]
+    pub fn ring_radius(&self) -> f32 {
+        self.geometry.hub_radius - 0.5 * (RING[0] + RING[1])
     }
 
     #[must_use]
@@ -131,9 +142,11 @@ impl DiskModel {
                     let transform = self.geometry.at(middle) * Affine3A::from_translation(radial);
                     push(objects, &self.shroud, transform, palette::SEAT);
                 }
-                let above = 0.5 * (height(i) + height(j)) + 0.035;
-                let middle = self.geometry.place(radius, first + 0.5, above);
-                push(objects, &self.pad, Affine3A::from_translation(middle), material);
+                // The contact joins the ends of both wings, however far they are apart.
+                let ends = [i, j].map(|blade| self.geometry.place(radius, first + 0.5, height(blade)));
+                let link = Arc::new(wire(&ends, LINK, 6, false));
+                push(objects, &link, Affine3A::IDENTITY, material);
+                push(objects, &self.pad, Affine3A::from_translation(ends[0].midpoint(ends[1])), material);
             }
             Attachment::Ground(i) | Attachment::Between(i, _) => {
                 let [root, _] = self.deflection(now, i);
@@ -161,7 +174,7 @@ impl DiskModel {
 }
 
 fn painted(colour: Colour) -> Material {
-    Material { colour, roughness: 0.38, metallic: 0.25, glow: 0.08 }
+    Material { colour, roughness: 0.7, metallic: 0.0, glow: 0.12 }
 }
 
 /// Points on a Catmull-Rom curve through `points`, `steps` from each to the next.
@@ -195,6 +208,7 @@ fn upright(mesh: Mesh, height: f32, material: Material) -> Object {
 /// Floor, hub with its bore and bolts, pedestal, and the zero line of the tips.
 fn fixed_parts(geometry: &DiskGeometry, palette: &Palette) -> Vec<Object> {
     let radius = geometry.hub_radius - 0.2;
+    let [inner, outer] = RING.map(|inside| geometry.hub_radius - inside);
     let flat = |mesh: Mesh, material| Object {
         mesh: Arc::new(mesh),
         transform: Affine3A::IDENTITY,
@@ -203,7 +217,7 @@ fn fixed_parts(geometry: &DiskGeometry, palette: &Palette) -> Vec<Object> {
     };
     let mut parts = vec![
         flat(floor(40.0, 40.0), palette.floor),
-        upright(tube(2.0 * HUB_HALF, radius + 0.02, radius - 0.2, 0.02, 72), HEIGHT - HUB_HALF, palette::PLATE),
+        upright(tube(2.0 * HUB_HALF, outer, inner, 0.02, 72), HEIGHT - HUB_HALF, palette::PLATE),
         upright(cylinder(0.12, radius - 0.19, 0.01, 64), HEIGHT - 0.06, palette::SHOE),
         upright(cylinder(0.34, 0.3, 0.03, 40), HEIGHT - 0.12, palette::PLATE),
         upright(cylinder(0.06, 0.13, 0.015, 28), HEIGHT + 0.22, palette::ROD),

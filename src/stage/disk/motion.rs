@@ -16,6 +16,9 @@ pub struct DiskInstant {
     pub ledger: EnergyLedger,
 }
 
+/// Slip that counts, as a part of the elongation at which a contact gives way: far above the rounding of f32, far below what can be seen.
+const LEAST_SLIP: f64 = 1e-3;
+
 /// Samples of a motion of a disk.
 #[derive(Debug, Clone)]
 pub struct DiskMotion {
@@ -117,6 +120,25 @@ impl DiskMotion {
         let end = self.instants.partition_point(|instant| instant.time <= to).max(first);
         let stride = (end - first).div_ceil(most.max(1)).max(1);
         (first.next_multiple_of(stride)..end).step_by(stride).map(|index| &self.instants[index])
+    }
+
+    /// Which contacts slipped from the first to the last sample in `from..=to`, seen by the place at which a contact carries no force,
+    ///
+    /// ```text
+    /// u - F/k
+    /// ```
+    ///
+    /// which slip alone moves: slips shorter than the time between two samples count too.
+    #[must_use]
+    pub fn slipped(&self, from: f64, to: f64) -> Vec<bool> {
+        // Samples alone: between them force and place are interpolated differently, which looks like slip.
+        let instants: Vec<&DiskInstant> = self.between(from, to, usize::MAX).collect();
+        let moved = |(number, element): (usize, &JenkinsElement)| {
+            let reach = element.slip_force / element.stiffness;
+            let rest = |i: &DiskInstant| element.attachment.elongation(&i.positions) - reach * i.slider_forces[number];
+            instants.windows(2).any(|pair| (rest(pair[1]) - rest(pair[0])).abs() > LEAST_SLIP * reach)
+        };
+        self.elements.iter().enumerate().map(moved).collect()
     }
 
     /// Largest deflection of a blade over the whole motion.

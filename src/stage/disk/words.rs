@@ -1,7 +1,7 @@
 //! Words over a disk: headline, numbers of the blades, the sense in which forward waves run, contacts, time, what is magnified.
 
 use super::geometry::{HEIGHT, TIP_RADIUS};
-use super::model::DiskModel;
+use super::model::{DiskModel, HUB_HALF};
 use super::motion::{DiskInstant, DiskMotion};
 use crate::model::{BladedDisk, Topology};
 use crate::render::{Anchor, Camera, Colour, OverlayItem, Rectangle, Stroke};
@@ -9,11 +9,10 @@ use crate::stage::Solution;
 use crate::stage::labels;
 use crate::stage::layout::Layout;
 use crate::stage::numbers;
-use crate::stage::palette::Palette;
+use crate::stage::palette::{self, Palette};
 use glam::{Vec2, Vec3};
 
-/// Radius at which numbers stand, and that of the arrow of forward waves.
-const NUMBERS: f32 = TIP_RADIUS + 0.27;
+/// Radius of the arrow of forward waves.
 const ARROW: f32 = TIP_RADIUS + 0.5;
 /// The arrow's ends, rad counter-clockwise from the right of the picture, and its points.
 const ARROW_ENDS: [f32; 2] = [-0.84, -0.26];
@@ -35,7 +34,8 @@ impl Words {
     #[must_use]
     pub fn new(disk: &BladedDisk, motion: &DiskMotion, model: &DiskModel, scale: f32, palette: Palette) -> Self {
         let every = match disk.sectors {
-            0..=36 => 1,
+            0..=16 => 1,
+            17..=36 => 2,
             37..=120 => 10,
             _ => 50,
         };
@@ -57,21 +57,20 @@ impl Words {
         labels::draw_headline(title, caption, &self.palette, (layout.scene.min, room), self.scale, out);
     }
 
-    /// Numbers at the blades' tips, and the arrow of forward waves.
-    pub fn draw_numbers(
-        &self,
-        now: &DiskInstant,
-        model: &DiskModel,
-        (camera, size): (&Camera, [u32; 2]),
-        out: &mut Vec<OverlayItem>,
-    ) {
+    /// Numbers of the blades on the ring of the hub, where no blade hides them and they stand still, and the arrow of forward waves.
+    pub fn draw_numbers(&self, model: &DiskModel, (camera, size): (&Camera, [u32; 2]), out: &mut Vec<OverlayItem>) {
         let geometry = model.geometry();
         for blade in (0..geometry.blades).step_by(self.every) {
-            let tip = model.tip(now, blade);
-            let place = geometry.place(NUMBERS, blade as f32, tip.y - HEIGHT);
+            let place = geometry.place(model.ring_radius(), blade as f32, HUB_HALF);
             if let Some(position) = camera.project(place, size) {
-                let shift = Vec2::new(0.0, 4.5) * self.scale;
-                out.push(self.text(position + shift, Anchor::Centre, 12.0, self.palette.faint_text, blade.to_string()));
+                out.push(OverlayItem::Text {
+                    position: position + Vec2::new(0.0, 4.5) * self.scale,
+                    anchor: Anchor::Centre,
+                    size: 12.0 * self.scale,
+                    colour: palette::CARRIAGE_TEXT,
+                    bold: true,
+                    text: blade.to_string(),
+                });
             }
         }
         if geometry.topology == Topology::Ring {
@@ -100,33 +99,35 @@ impl Words {
         out.push(self.text(beside, Anchor::Left, 12.0, colour, "forward waves".to_owned()));
     }
 
-    /// Contacts and time at the left, the disk and what is magnified at the right of the lines below the scene.
+    /// Contacts that slipped in the last period and time at the left, the disk and what is magnified at the right of the lines below the scene.
     pub fn draw_status(
         &self,
         now: &DiskInstant,
+        slipping: usize,
         (apart, solution): (Option<f64>, Option<&Solution>),
         layout: &Layout,
         out: &mut Vec<OverlayItem>,
     ) {
         let (s, palette, origin, right) =
             (self.scale, &self.palette, layout.status(), layout.scene.max.x - 14.0 * self.scale);
-        let slipping = now.contacts.iter().filter(|contact| !contact.is_stick()).count();
         let mut left = origin.x;
         if !now.contacts.is_empty() {
-            let word = format!("{slipping} of {} slip", now.contacts.len());
+            let count = now.contacts.len();
+            let words = |slipping: usize| format!("one period: {slipping} of {count} slip");
             let colour = if slipping > 0 { palette.slip } else { palette.stick };
-            let chip = Rectangle { min: origin, max: origin + Vec2::new(132.0, 28.0) * s };
+            let width = crate::render::text_width(&words(count), 15.0 * s, true) + 28.0 * s;
+            let chip = Rectangle { min: origin, max: origin + Vec2::new(width, 28.0 * s) };
             out.push(OverlayItem::Box { area: chip, corner_radius: 14.0 * s, fill: colour, stroke: None });
-            let middle = origin + Vec2::new(66.0, 19.5) * s;
+            let middle = origin + Vec2::new(0.5 * width, 19.5 * s);
             out.push(OverlayItem::Text {
                 position: middle,
                 anchor: Anchor::Centre,
                 size: 15.0 * s,
                 colour: palette.chip_text,
                 bold: true,
-                text: word,
+                text: words(slipping),
             });
-            left += 148.0 * s;
+            left += width + 16.0 * s;
         }
         out.push(OverlayItem::Text {
             position: Vec2::new(left, origin.y + 21.0 * s),

@@ -1,16 +1,16 @@
 //! Carpet: deflection of every blade over the last stretch of time, as colour. A forward wave is a stripe that rises to the right.
 
 use super::Frame;
-use crate::render::{Anchor, Colour, OverlayItem, Rectangle};
+use crate::render::{Anchor, OverlayItem, Rectangle};
 use crate::stage::disk::colours::DeflectionColours;
-use crate::stage::disk::motion::DiskInstant;
+use crate::stage::disk::motion::{DiskInstant, DiskMotion};
 use crate::stage::plot::{Axis, Plot};
 use glam::Vec2;
 
 /// Length of the stretch, non-dimensional time units: some seven periods.
 const WINDOW: f64 = 44.0;
-/// Time of one column.
-const COLUMN: f64 = 0.2;
+/// Columns of a full stretch: about a pixel each.
+const COLUMNS: f64 = 220.0;
 /// Border for the scale of colours, its left end and width, pixels of a 720 lines high picture.
 const SCALE_ROOM: f32 = 72.0;
 const SCALE_PLACE: [f32; 2] = [12.0, 10.0];
@@ -22,46 +22,40 @@ pub(super) struct Carpet {
     plot: Plot,
     colours: DeflectionColours,
     blades: usize,
-    /// Colours of all columns of the motion, blade 0 first; column k stands for the time (k + 1/2) [`COLUMN`].
-    columns: Vec<Colour>,
+    /// Time of one column.
+    column: f64,
 }
 
 impl Carpet {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
-        let (motion, blades) = (frame.motion, frame.motion.blades());
-        let axes = [Axis::exactly(0.0, WINDOW.min(motion.end())), Axis::exactly(-0.5, blades as f64 - 0.5)];
-        let plot = frame.plot(place, "Deflection of every blade", ["t", "blade"], axes);
-        let count = (motion.end() / COLUMN + 1e-9).floor() as usize;
-        let column = |k: usize| {
-            let now = motion.at((k as f64 + 0.5) * COLUMN);
-            now.positions.into_iter().take(blades)
-        };
-        let columns = (0..count).flat_map(column).map(|x| frame.colours.of(x)).collect();
+        let blades = frame.motion.blades();
+        let rows = Axis::exactly(-0.5, blades as f64 - 0.5);
+        let plot = frame.plot_until_now(place, "Deflection of every blade", "blade", WINDOW, rows);
+        let column = -plot.x.min / COLUMNS;
         Self {
             plot: Plot { right: SCALE_ROOM, y: whole_ticks(plot.y), ..plot },
             colours: frame.colours,
             blades,
-            columns,
+            column,
         }
     }
 
-    /// The axis moves with time once it is full.
-    pub fn draw(&self, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
-        let window = self.plot.x.max;
-        let end = now.time.max(window);
-        let plot = Plot { x: self.plot.x.slid_to(end - window, end), ..self.plot.clone() };
+    /// Columns end now, so that the motion runs through without a jolt.
+    pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
+        let plot = &self.plot;
         plot.draw_frame(out);
-        let first = ((end - window) / COLUMN).ceil() as usize;
-        // Whole columns alone: rounding may put the end of one just after now.
-        let known = ((now.time / COLUMN + 1e-9).floor() as usize).min(self.columns.len() / self.blades);
-        if known > first {
-            let count = known - first;
-            let cell = |n: usize| self.columns[(first + n % count) * self.blades + self.blades - 1 - n / count];
-            let [left, right] = [first, known].map(|k| k as f64 * COLUMN);
+        // Rounding may take a whole column for a little less.
+        let count = (now.time / self.column + 1e-9).floor().min(COLUMNS) as usize;
+        if count > 0 {
+            let middle = |n: usize| now.time - ((count - n) as f64 - 0.5) * self.column;
+            let columns: Vec<DiskInstant> = (0..count).map(|n| motion.at(middle(n))).collect();
+            let rows = (0..self.blades).rev();
+            let cells = rows.flat_map(|blade| columns.iter().map(move |column| column.positions[blade]));
+            let left = -(count as f64) * self.column;
             out.push(OverlayItem::Raster {
-                area: Rectangle { min: plot.pixel(left, plot.y.max), max: plot.pixel(right, plot.y.min) },
+                area: Rectangle { min: plot.pixel(left, plot.y.max), max: plot.pixel(0.0, plot.y.min) },
                 columns: count,
-                cells: (0..count * self.blades).map(cell).collect(),
+                cells: cells.map(|x| self.colours.of(x)).collect(),
             });
         }
         self.draw_scale(out);

@@ -1,7 +1,7 @@
-//! Hysteresis of the contact that slips most: slider force over elongation, with a fading trail.
+//! Hysteresis of the contact that slips most: slider force over elongation, with a fading trail in the colours of stick and slip.
 
 use super::{Frame, MOST_POINTS};
-use crate::model::{Attachment, JenkinsElement};
+use crate::model::{Attachment, ContactState, JenkinsElement};
 use crate::render::{Anchor, OverlayItem, Rectangle};
 use crate::stage::disk::motion::{DiskInstant, DiskMotion};
 use crate::stage::plot::{Axis, Plot};
@@ -41,23 +41,25 @@ impl Contact {
             format!("Contact {}", place_of(&element, motion.blades()))
         });
         let axes = [Axis::symmetric(reach), Axis::symmetric(1.0)];
-        Self { plot: frame.plot(place, &title, ["elongation u", "f/f slip"], axes), element }
+        Self { plot: frame.plot(place, &title, ["elongation u", "force / slip force"], axes), element }
     }
 
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
         let (plot, palette) = (&self.plot, &self.plot.palette);
         plot.draw_frame(out);
         let Some((number, element)) = self.element else { return };
-        let data = |i: &DiskInstant| (element.attachment.elongation(&i.positions), i.slider_forces[number]);
-        for (length, width, alpha) in [(TRAIL[0], 1.2, 0.35), (TRAIL[1], 2.0, 1.0)] {
-            let past = motion.between((now.time - length).max(0.0), now.time, MOST_POINTS).map(data);
-            plot.draw_line(past.chain([data(now)]), width, palette.masses[0].with_alpha(alpha), out);
+        self.draw_limits(out);
+        for (length, width, alpha) in [(TRAIL[0], 1.2, 0.45), (TRAIL[1], 2.4, 1.0)] {
+            let past = motion.between((now.time - length).max(0.0), now.time, MOST_POINTS).chain([now]);
+            for (contact, points) in runs(past.map(|i| Point::of(i, number, &element)), &element) {
+                plot.draw_line(points.into_iter(), width, palette.contact(contact).with_alpha(alpha), out);
+            }
         }
-        let (x, y) = data(now);
-        let contact = now.contacts[number];
+        let Point { place: [x, y], contact } = Point::of(now, number, &element);
         plot.draw_marker(x, y, palette.contact(contact), out);
         out.push(OverlayItem::Text {
-            position: plot.area().max - Vec2::new(4.0, 6.0) * plot.scale,
+            // Above the lower slip limit.
+            position: plot.area().max - Vec2::new(4.0, 13.0) * plot.scale,
             anchor: Anchor::Right,
             size: 12.0 * plot.scale,
             colour: palette.contact(contact),
@@ -65,4 +67,57 @@ impl Contact {
             text: if contact.is_stick() { "stick" } else { "slip" }.to_owned(),
         });
     }
+
+    /// The forces at which the contact gives way.
+    fn draw_limits(&self, out: &mut Vec<OverlayItem>) {
+        let (plot, colour) = (&self.plot, self.plot.palette.slip);
+        for force in [-1.0, 1.0] {
+            plot.draw_line([(plot.x.min, force), (plot.x.max, force)].into_iter(), 1.0, colour.with_alpha(0.4), out);
+        }
+        plot.draw_word([plot.x.min, 1.0], Vec2::new(5.0, 12.0), Anchor::Left, "slip limit", colour, out);
+    }
+}
+
+/// Elongation and force of a contact, and its state.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    place: [f64; 2],
+    contact: ContactState,
+}
+
+impl Point {
+    fn of(instant: &DiskInstant, number: usize, element: &JenkinsElement) -> Self {
+        let place = [element.attachment.elongation(&instant.positions), instant.slider_forces[number]];
+        Self { place, contact: instant.contacts[number] }
+    }
+}
+
+/// A trail in pieces of stick and of slip, with the corners that fall between two samples: the force F of a contact that sticks follows the
+/// elongation u with its stiffness k, so that from a sticking sample it comes to that of the slipping one at
+///
+/// ```text
+/// u = u_stick + (F_slip - F_stick)/k
+/// ```
+fn runs(points: impl Iterator<Item = Point>, element: &JenkinsElement) -> Vec<(ContactState, Vec<(f64, f64)>)> {
+    let reach = element.slip_force / element.stiffness;
+    let mut runs: Vec<(ContactState, Vec<(f64, f64)>)> = Vec::new();
+    let mut last: Option<Point> = None;
+    for point in points {
+        let [x, y] = point.place;
+        match (last, runs.last_mut()) {
+            (Some(last), Some((contact, run))) if last.contact.is_stick() == point.contact.is_stick() => {
+                *contact = point.contact;
+                run.push((x, y));
+            }
+            (Some(last), Some((_, run))) => {
+                let (stick, slip) = if point.contact.is_stick() { (point, last) } else { (last, point) };
+                let corner = (stick.place[0] + (slip.place[1] - stick.place[1]) * reach, slip.place[1]);
+                run.push(corner);
+                runs.push((point.contact, vec![corner, (x, y)]));
+            }
+            _ => runs.push((point.contact, vec![(x, y)])),
+        }
+        last = Some(point);
+    }
+    runs
 }

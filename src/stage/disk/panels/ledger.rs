@@ -19,7 +19,7 @@ pub(super) struct Ledger {
 impl Ledger {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let Frame { motion, scale, palette, .. } = *frame;
-        let title = "Energy in the last period".to_owned();
+        let title = "Energy per period".to_owned();
         let period = TAU / motion.angular_frequency();
         let bars = Bars { place, scale, palette, title, unit: 1.0 };
         let mut panel = Self { bars, period, full: FullScale::default() };

@@ -33,6 +33,8 @@ pub struct Frame<'a> {
     pub disk: &'a BladedDisk,
     pub motion: &'a DiskMotion,
     pub colours: DeflectionColours,
+    /// How much longer than usual the stretches of time are that panels show, at least 1: fast films would rush through them.
+    pub pace: f64,
     pub scale: f32,
     pub palette: Palette,
 }
@@ -44,6 +46,12 @@ impl Frame<'_> {
         let [x_label, y_label] = [x_label, y_label].map(str::to_owned);
         let (scale, palette, title) = (self.scale, self.palette, title.to_owned());
         Plot { panel, scale, palette, title, x_label, y_label, x, y, right: RIGHT }
+    }
+
+    /// A plot over the time before now, whose axis stands still: ticks do not come and go while the motion runs through.
+    fn plot_until_now(&self, panel: Rectangle, title: &str, y_label: &str, stretch: f64, y: Axis) -> Plot {
+        let stretch = (stretch * self.pace).min(self.motion.end());
+        self.plot(panel, title, ["now", y_label], [Axis::exactly(-stretch, 0.0), y])
     }
 
     fn waves(&self) -> WaveNames {
@@ -104,6 +112,14 @@ impl WaveNames {
         }
     }
 
+    /// Waves, or modes.
+    fn kind(&self) -> &'static str {
+        match self.topology {
+            Topology::Ring => "waves",
+            Topology::Chain => "modes",
+        }
+    }
+
     /// `n = +3`, or `mode 3`.
     fn name(&self, index: usize) -> String {
         match (self.topology, self.number(index)) {
@@ -130,7 +146,7 @@ fn draw_legend(plot: &Plot, words: impl IntoIterator<Item = (String, Colour)>, o
     }
 }
 
-/// The panels of one film: their places and axes are the same in every frame.
+/// The panels of one film: their places and axes are the same in every frame, but for the bars of the ledger.
 #[derive(Debug, Clone)]
 pub struct Panels {
     drawn: Vec<Drawn>,
@@ -166,8 +182,8 @@ impl Panels {
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
         for panel in &self.drawn {
             match panel {
-                Drawn::Carpet(panel) => panel.draw(now, out),
-                Drawn::Spectrum(panel) => panel.draw(now, out),
+                Drawn::Carpet(panel) => panel.draw(motion, now, out),
+                Drawn::Spectrum(panel) => panel.draw(motion, now, out),
                 Drawn::Waves(panel) => panel.draw(motion, now, out),
                 Drawn::Series(panel) => panel.draw(motion, now, out),
                 Drawn::Contact(panel) => panel.draw(motion, now, out),

@@ -24,24 +24,23 @@ impl Series {
         let first = (0..motion.blades().min(2)).collect::<Vec<usize>>();
         let third = if first.contains(&most) { 2 } else { most };
         let blades: Vec<usize> = first.into_iter().chain([third]).filter(|j| *j < motion.blades()).collect();
-        let axes = [Axis::exactly(0.0, WINDOW.min(motion.end())), Axis::symmetric(frame.colours.limit())];
-        Self { plot: frame.plot(place, "Blades", ["t", "deflection x"], axes), blades }
+        let title = if blades.len() == 3 { "Three blades" } else { "Blades" };
+        let plot = frame.plot_until_now(place, title, "deflection x", WINDOW, Axis::symmetric(frame.colours.limit()));
+        Self { plot, blades }
     }
 
-    /// The axis moves with time once it is full.
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
-        let window = self.plot.x.max;
-        let end = now.time.max(window);
-        let plot = Plot { x: self.plot.x.slid_to(end - window, end), ..self.plot.clone() };
+        let plot = &self.plot;
         plot.draw_frame(out);
         let palette = plot.palette;
         let colours = [palette.masses[0], palette.masses[1], palette.excitation];
         for (&blade, colour) in self.blades.iter().zip(colours).rev() {
-            let past = motion.between(end - window, now.time, MOST_POINTS).map(|i| (i.time, i.positions[blade]));
-            plot.draw_line(past.chain([(now.time, now.positions[blade])]), 1.6, colour, out);
-            plot.draw_marker(now.time, now.positions[blade], colour, out);
+            let past = motion.between(now.time + plot.x.min, now.time, MOST_POINTS);
+            let line = past.map(|i| (i.time - now.time, i.positions[blade])).chain([(0.0, now.positions[blade])]);
+            plot.draw_line(line, 1.6, colour, out);
+            plot.draw_marker(0.0, now.positions[blade], colour, out);
         }
         let words = self.blades.iter().zip(colours).map(|(blade, colour)| (blade.to_string(), colour));
-        draw_legend(&plot, words.rev(), out);
+        draw_legend(plot, words.rev(), out);
     }
 }

@@ -1,11 +1,14 @@
-//! Spectrum by nodal diameter: a bar for every wave, backward ones left of 0 and forward ones right of it; of a chain one for every mode.
+//! Spectrum by nodal diameter: a bar for every wave, backward ones left of 0 and forward ones right of it; of a chain one for every mode. Means over the last
+//! period, as of the strongest waves: neither bars nor the name of the highest one flicker.
 
+use super::waves::means;
 use super::{Frame, WaveNames, draw_legend, strongest};
 use crate::model::{Spectrum, Topology};
 use crate::render::{Anchor, OverlayItem, Rectangle, Stroke};
-use crate::stage::disk::motion::DiskInstant;
+use crate::stage::disk::motion::{DiskInstant, DiskMotion};
 use crate::stage::plot::{Axis, Plot};
 use glam::Vec2;
+use std::f64::consts::TAU;
 
 /// Instants looked at for the largest bar.
 const LOOKED_AT: u32 = 300;
@@ -17,6 +20,7 @@ pub(super) struct Bars {
     plot: Plot,
     names: WaveNames,
     spectrum: Spectrum,
+    period: f64,
 }
 
 impl Bars {
@@ -30,18 +34,18 @@ impl Bars {
         let [first, last] = names.range();
         let axes = [Axis::exactly(first as f64 - 0.6, last as f64 + 0.6), Axis::exactly(0.0, 1.18 * largest)];
         let (title, label) = match frame.disk.topology {
-            Topology::Ring => ("Waves by nodal diameter", "nodal diameter n"),
-            Topology::Chain => ("Standing modes of the chain", "mode (half waves)"),
+            Topology::Ring => ("Waves by nodal diameter", "n"),
+            Topology::Chain => ("Standing modes of the chain", "mode"),
         };
-        let plot = frame.plot(place, title, [label, "amplitude"], axes);
+        let plot = frame.plot(place, title, [label, "amplitude, mean of a period"], axes);
         let x = Axis { tick: plot.x.tick.max(1.0).round(), ..plot.x };
-        Self { plot: Plot { x, ..plot }, names, spectrum }
+        Self { plot: Plot { x, ..plot }, names, spectrum, period: TAU / motion.angular_frequency() }
     }
 
-    pub fn draw(&self, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
+    pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
         let (plot, names) = (&self.plot, &self.names);
         plot.draw_frame(out);
-        let amplitudes = self.spectrum.amplitudes(&now.positions, &now.velocities);
+        let amplitudes = means(motion, &self.spectrum, now.time, self.period);
         let highest = strongest(&amplitudes);
         for (index, &amplitude) in amplitudes.iter().enumerate() {
             let middle = names.number(index) as f64;

@@ -11,6 +11,8 @@ use std::f64::consts::TAU;
 
 /// How clearly the waves shown are drawn, the strongest first.
 const CLARITY: [f32; 4] = [1.0, 0.8, 0.65, 0.5];
+/// Waves that stay below this part of the strongest one's largest amplitude are left out: a line on the axis says nothing.
+const VISIBLE: f64 = 0.03;
 /// Instants of a period that a mean is taken over.
 const INSTANTS: u32 = 8;
 
@@ -27,7 +29,7 @@ pub(super) struct Waves {
 }
 
 /// Mean amplitudes of all waves over the period before `time`, or since the start.
-fn means(motion: &DiskMotion, spectrum: &Spectrum, time: f64, period: f64) -> Vec<f64> {
+pub(super) fn means(motion: &DiskMotion, spectrum: &Spectrum, time: f64, period: f64) -> Vec<f64> {
     let mut sum = vec![0.0; motion.blades()];
     for n in 0..INSTANTS {
         let now = motion.at((time - period * f64::from(n) / f64::from(INSTANTS)).max(0.0));
@@ -49,10 +51,16 @@ impl Waves {
         let mut order: Vec<(usize, f64)> = (0..motion.blades()).map(|index| (index, largest(index))).collect();
         order.sort_by(|a, b| b.1.total_cmp(&a.1));
         let top = order.first().map_or(1.0, |first| first.1).max(1e-9);
-        let shown: Vec<usize> = order.into_iter().take(CLARITY.len()).map(|(index, _)| index).collect();
+        let shown: Vec<usize> = order
+            .into_iter()
+            .take(CLARITY.len())
+            .filter(|(_, largest)| *largest >= VISIBLE * top)
+            .map(|(index, _)| index)
+            .collect();
         let points = all.into_iter().map(|(t, a)| (t, shown.iter().map(|&index| a[index]).collect())).collect();
         let axes = [Axis::exactly(0.0, motion.end()), Axis::exactly(0.0, 1.1 * top)];
-        let plot = frame.plot(place, "Strongest waves", ["t", "amplitude, mean of a period"], axes);
+        let plot =
+            frame.plot(place, &format!("Strongest {}", names.kind()), ["t", "amplitude, mean of a period"], axes);
         Self { plot, names, spectrum, period, shown, points }
     }
 
@@ -78,9 +86,10 @@ impl Waves {
                 continue;
             }
             let has_room = pixel.x < plot.area().max.x - 34.0 * plot.scale;
-            let (side, anchor) = if has_room { (9.0, Anchor::Left) } else { (-9.0, Anchor::Right) };
+            // Where it has to stand over the line, above it.
+            let (side, above, anchor) = if has_room { (9.0, 4.0, Anchor::Left) } else { (-7.0, -8.0, Anchor::Right) };
             out.push(OverlayItem::Text {
-                position: pixel + Vec2::new(side, 4.0) * plot.scale,
+                position: pixel + Vec2::new(side, above) * plot.scale,
                 anchor,
                 size: 12.0 * plot.scale,
                 colour: plot.palette.text,
