@@ -1,5 +1,5 @@
 //! Where things stand in the picture: scene and words above up to three panels in a row; of more, three stand in a column beside the scene.
-//! In an upright picture all stand below it, two in a row.
+//! In an upright or square picture all stand below it, two in a row.
 
 use crate::render::{Camera, Rectangle};
 use glam::{Vec2, Vec3};
@@ -17,10 +17,10 @@ const HEADLINE: f32 = 84.0;
 const STATUS: f32 = 62.0;
 /// Panels in the column.
 const IN_COLUMN: usize = 3;
-/// A picture is upright if it is this much higher than wide; then its width counts as this many pixels, and a row of panels is this part
-/// of its height.
-const UPRIGHT: f32 = 1.2;
-const UPRIGHT_WIDTH: f32 = 760.0;
+/// A picture is upright from this ratio of height to width on; then it counts as this many pixels wide and high, what fits, and a row of
+/// panels is this part of its height.
+const UPRIGHT: f32 = 0.9;
+const UPRIGHT_SIZE: [f32; 2] = [760.0, 1130.0];
 const UPRIGHT_ROW: f32 = 0.185;
 /// Steps in which the camera is centred: seen along the rig each leaves half of the shift.
 const CENTRING: usize = 12;
@@ -50,7 +50,7 @@ impl Layout {
     #[must_use]
     pub fn new(size: [u32; 2], panels: usize) -> Self {
         let [width, height] = size.map(|side| side as f32);
-        if height > UPRIGHT * width {
+        if height >= UPRIGHT * width {
             return Self::upright(size, panels);
         }
         // Words and borders fit in both directions, whatever the shape of the picture.
@@ -73,7 +73,7 @@ impl Layout {
 
     fn upright(size: [u32; 2], panels: usize) -> Self {
         let [width, height] = size.map(|side| side as f32);
-        let scale = width / UPRIGHT_WIDTH;
+        let scale = (width / UPRIGHT_SIZE[0]).min(height / UPRIGHT_SIZE[1]);
         let (border, gap) = (BORDER * scale, GAP * scale);
         let rows = panels.div_ceil(2);
         let tall = UPRIGHT_ROW * height;

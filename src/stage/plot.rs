@@ -18,6 +18,8 @@ pub struct Axis {
     pub max: f64,
     /// Distance of two ticks.
     pub tick: f64,
+    /// Numbers are written as multiples of this.
+    pub multiple: f64,
     /// Moves with time: its numbers fade in and out at its ends.
     pub is_sliding: bool,
 }
@@ -28,7 +30,13 @@ impl Axis {
     pub fn covering(min: f64, max: f64) -> Self {
         let span = (max - min).max(1e-12);
         let margin = 0.06 * span;
-        Self { min: min - margin, max: max + margin, tick: round_tick(span / MOST_TICKS), is_sliding: false }
+        Self {
+            min: min - margin,
+            max: max + margin,
+            tick: round_tick(span / MOST_TICKS),
+            multiple: 1.0,
+            is_sliding: false,
+        }
     }
 
     /// The range `-limit..=limit` with a margin.
@@ -40,7 +48,7 @@ impl Axis {
     /// Exactly `min..=max`.
     #[must_use]
     pub fn exactly(min: f64, max: f64) -> Self {
-        Self { min, max, tick: round_tick((max - min) / MOST_TICKS), is_sliding: false }
+        Self { min, max, tick: round_tick((max - min) / MOST_TICKS), multiple: 1.0, is_sliding: false }
     }
 
     /// The same range with fewer ticks, for small plots.
@@ -62,11 +70,12 @@ impl Axis {
 
     /// Digits after the point that tell two ticks apart.
     fn decimals(self) -> usize {
-        (-self.tick.log10().floor()).clamp(0.0, 9.0) as usize
+        // A tick of 1e-3 in thousandths is 1, up to its last digit.
+        (-(self.tick / self.multiple * (1.0 + 1e-12)).log10().floor()).clamp(0.0, 9.0) as usize
     }
 
     fn written(self, tick: f64) -> String {
-        format!("{tick:.*}", self.decimals()).replace('-', "−")
+        format!("{:.*}", self.decimals(), tick / self.multiple).replace('-', "−")
     }
 
     fn part(self, value: f64) -> f32 {
@@ -275,6 +284,11 @@ mod tests {
         assert_eq!(ticks, [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]);
         assert_eq!(axis.decimals(), 1);
         assert_eq!(Axis::exactly(0.0, 60.0).tick, 10.0);
+        let millimetres = Axis { multiple: 1e-3, ..Axis::exactly(-0.002, 0.002) };
+        assert_eq!(
+            millimetres.sparse().ticks().map(|x| millimetres.sparse().written(x)).collect::<Vec<_>>(),
+            ["−2", "−1", "0", "1", "2"]
+        );
     }
 
     #[test]

@@ -302,8 +302,10 @@ fn no_word_is_cut_off_or_written_over_another() {
         let mut case = case.clone();
         (case.film.width, case.film.height) = (wide, high);
         let stage = stage(&case, &trajectory);
-        // The width of a picture counts as 1280 pixels, that of an upright one as 760.
-        let corner = 8.0 * wide as f32 / if high > wide { 760.0 } else { 1280.0 };
+        // A picture counts as 1280 pixels wide, an upright one as 760, a square one as 1130 high.
+        let corner = 8.0
+            * (wide as f32 / if high >= wide { 760.0 } else { 1280.0 })
+                .min(high as f32 / if high >= wide { 1130.0 } else { 720.0 });
         for index in (0..=600).step_by(60) {
             let [mut min, mut max] = [Vec2::ZERO, Vec2::new(wide as f32, high as f32)];
             let mut panels = 0;

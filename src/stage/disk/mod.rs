@@ -22,10 +22,11 @@ use model::DiskModel;
 use panels::{Frame, Panels};
 use words::Words;
 
-/// Middle of the disk, radius and half the height of a ring that holds the tips of the blades with their numbers, and the camera's
-/// distance; drawing units.
+/// Middle of the disk, radius and half the height of a ring that holds the tips of the blades, how far words reach beside it, and the
+/// camera's distance; drawing units.
 const MIDDLE: Vec3 = Vec3::new(0.0, 0.85, 0.0);
 const RING: [f32; 2] = [2.55, 0.3];
+const BESIDE: f32 = 3.3;
 const DISTANCE: f32 = 10.0;
 /// From where a disk is seen unless its scene says.
 const VIEW: View = View { azimuth: -12.0, elevation: 36.0, zoom: 1.0, shift: [0.0; 3] };
@@ -35,14 +36,15 @@ const USUAL_SPEED: f64 = 8.0;
 /// Sun on a disk, as a part of that on the rig: colours stand for numbers here and may not be bleached.
 const SUN: f32 = 0.5;
 
-/// What a camera shows: points round the ring.
+/// What a camera shows: points round the ring, and the words beside it.
 fn shown() -> Shown {
     let [radius, half] = RING;
     let around = (0..24).flat_map(|n| {
         let (sin, cos) = (std::f32::consts::TAU * n as f32 / 24.0).sin_cos();
         [-half, half].map(|y| MIDDLE + Vec3::new(radius * cos, y, radius * sin))
     });
-    Shown { points: around.collect(), middle: MIDDLE, distance: DISTANCE }
+    let words = [-BESIDE, BESIDE].map(|x| MIDDLE + Vec3::new(x, 0.0, 0.0));
+    Shown { points: around.chain(words).collect(), middle: MIDDLE, distance: DISTANCE }
 }
 
 /// One film of a disk.

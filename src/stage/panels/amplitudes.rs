@@ -1,7 +1,7 @@
 //! The plane of the slow amplitudes: a limit cycle is a point in it, a torus a closed loop, chaos a tangle. It runs one period late: the
 //! smooth amplitude between two turning points takes the next ones as well.
 
-use super::{FADES, Frame};
+use super::{FADES, Frame, Quantity};
 use crate::model::Scales;
 use crate::render::{OverlayItem, Rectangle};
 use crate::stage::envelope::Envelope;
@@ -32,7 +32,7 @@ impl Amplitudes {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let envelopes = [0, 1].map(|mass| Envelope::of_mass(frame.motion, mass));
         let [x, y] = [0, 1].map(|i| Axis::covering(0.0, envelopes[i].largest().max(0.5) * frame.scales.length));
-        let labels = [frame.label("a₁", "m"), frame.label("a₂", "m")];
+        let labels = [Quantity("a₁", "m"), Quantity("a₂", "m")];
         let plot = frame.plot(place, "Slow amplitudes", labels, [x, y]);
         let start = envelopes[0].start().zip(envelopes[1].start()).map_or(f64::INFINITY, |(a, b)| a.max(b));
         let length = (frame.motion.end() - DELAY - start).max(0.0);

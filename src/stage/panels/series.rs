@@ -1,6 +1,6 @@
 //! Displacements over time: the last stretch of both masses.
 
-use super::{Frame, MOST_POINTS};
+use super::{Frame, MOST_POINTS, Quantity};
 use crate::model::Scales;
 use crate::render::{Anchor, OverlayItem, Rectangle};
 use crate::stage::motion::{Instant, Motion};
@@ -24,7 +24,7 @@ impl Series {
         let s = frame.scales;
         let amplitude = frame.motion.largest(|i| i.positions[0].abs().max(i.positions[1].abs())).max(1.0);
         let axes = [Axis::exactly(0.0, WINDOW.min(frame.motion.end()) * s.time), Axis::symmetric(amplitude * s.length)];
-        let plot = frame.plot(place, "Displacements", [frame.label("t", "s"), frame.label("x₁, x₂", "m")], axes);
+        let plot = frame.plot(place, "Displacements", [Quantity("t", "s"), Quantity("x₁, x₂", "m")], axes);
         Self { plot, scales: s }
     }
 
