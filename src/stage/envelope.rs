@@ -65,9 +65,11 @@ impl Envelope {
         Some(self.turns.first()?[0])
     }
 
+    /// The smallest and the largest amplitude of the motion; 0 where it never turns.
     #[must_use]
-    pub fn largest(&self) -> f64 {
-        self.turns.iter().map(|turn| turn[1]).fold(0.0, f64::max)
+    pub fn range(&self) -> [f64; 2] {
+        let amplitudes = || self.turns.iter().map(|turn| turn[1]);
+        [amplitudes().reduce(f64::min).unwrap_or(0.0), amplitudes().fold(0.0, f64::max)]
     }
 }
 

@@ -17,6 +17,17 @@ const BRIGHT: f64 = 60.0;
 const STEP: f64 = 0.4;
 const MOST: f64 = 4000.0;
 
+/// Shortest range of an axis, non-dimensional: a limit cycle is a point.
+const SHORTEST: f64 = 0.3;
+
+/// From the smallest to the largest amplitude, so that a small loop is seen as well.
+fn axis(envelope: &Envelope, length: f64) -> Axis {
+    let [least, largest] = envelope.range();
+    let half = 0.5 * (largest - least).max(SHORTEST);
+    let middle = (0.5 * (least + largest)).max(half);
+    Axis::covering((middle - half) * length, (middle + half) * length)
+}
+
 #[derive(Debug, Clone)]
 pub(super) struct Amplitudes {
     plot: Plot,
@@ -31,7 +42,7 @@ pub(super) struct Amplitudes {
 impl Amplitudes {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let envelopes = [0, 1].map(|mass| Envelope::of_mass(frame.motion, mass));
-        let [x, y] = [0, 1].map(|i| Axis::covering(0.0, envelopes[i].largest().max(0.5) * frame.scales.length));
+        let [x, y] = [0, 1].map(|i| axis(&envelopes[i], frame.scales.length));
         let labels = [Quantity("a₁", "m"), Quantity("a₂", "m")];
         let plot = frame.plot(place, "Slow amplitudes", labels, [x, y]);
         let start = envelopes[0].start().zip(envelopes[1].start()).map_or(f64::INFINITY, |(a, b)| a.max(b));
