@@ -15,6 +15,7 @@ use std::f64::consts::TAU;
 #[serde(deny_unknown_fields)]
 pub struct Harmonic {
     /// Waves round the ring, 0 to N/2; N/2 makes blades alternate.
+    #[schemars(range(min = 0))]
     pub order: i64,
     pub amplitude: f64,
     /// Rad.
