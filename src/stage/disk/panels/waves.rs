@@ -82,7 +82,7 @@ impl Waves {
             // At the side of the mark that has room.
             let pixel = place_of(index);
             // Where a stronger wave has its name there is no room for another.
-            if self.shown[..place].iter().any(|&other| (place_of(other).y - pixel.y).abs() < 12.0 * plot.scale) {
+            if self.shown[..place].iter().any(|&other| (place_of(other).y - pixel.y).abs() < 14.0 * plot.scale) {
                 continue;
             }
             let has_room = pixel.x < plot.area().max.x - 34.0 * plot.scale;
