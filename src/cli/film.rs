@@ -1,12 +1,13 @@
 //! Making a film of a motion: shared by `run` and `render`.
 
+use super::motions;
 use super::progress::Progress;
 use crate::dynamics::Trajectory;
-use crate::engine::{BodyPose, BodyRole, Recording, RigGeometry};
+use crate::engine::{BodyPose, BodyRole, EngineInfo, Recording, RigGeometry};
 use crate::film::{self, Encoder, Ffmpeg, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
 use crate::render::{AdapterInfo, Colour, DrawList, OverlayItem, Rectangle, Renderer, RendererChoice};
 use crate::scene::{Backdrop, Case, Film};
-use crate::stage::{Beside, Body, DiskMotion, DiskStage, Motion, Stage, Take};
+use crate::stage::{Beside, Body, DiskMotion, DiskStage, Motion, Solution, Stage, Take};
 use crate::store::{OutputDir, sha256_hex};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
@@ -52,7 +53,7 @@ pub struct DrawArgs {
     #[arg(long, value_name = "A:B", value_parser = parse_frames)]
     pub frames: Option<Range<u64>>,
     /// Draw the Kth of N equal parts of the frames only, and no film; for many machines that share a directory, or whose directories are
-    /// put together.
+    /// put together: all frames in one, and its outputs.jsonl followed by the others'.
     #[arg(long, value_name = "K/N", value_parser = parse_shard, conflicts_with = "frames")]
     pub shard: Option<[u64; 2]>,
     /// Draw frames this many times as wide and high and make them smaller: smoother edges for as much more time, squared.
@@ -86,15 +87,25 @@ impl DrawArgs {
         self.frames.clone().or(self.shard.map(part))
     }
 
-    /// Refuses frames beyond a film of `count`. Asked once before anything is written, and again of the motion, which may have ended
-    /// early. Refuses an encoder that is not there.
-    pub fn check(&self, count: u64) -> anyhow::Result<()> {
+    /// Refuses frames beyond a film that has at most `most`, before anything is computed; the motion may end early. Refuses an encoder
+    /// that is not there.
+    pub fn check(&self, most: u64) -> anyhow::Result<()> {
         self.encoder()?;
+        self.check_frames(most, &format!("it has at most {most} frames"))
+    }
+
+    /// The same of the film, its motion known. What was within the most frames it might have is beyond them only where it ended early.
+    fn check_of(&self, count: u64) -> anyhow::Result<()> {
+        self.check_frames(count, &format!("its motion ended early and left it {count} frames"))
+    }
+
+    fn check_frames(&self, count: u64, film: &str) -> anyhow::Result<()> {
         if let Some([k, n]) = self.shard {
-            ensure!(n <= count, "--shard {k}/{n} is too small a part: the film has {count} frames");
+            ensure!(n <= count, "--shard {k}/{n} is too small a part of the film: {film}");
         }
-        let Some(Range { start, end }) = self.frames else { return Ok(()) };
-        ensure!(end <= count, "--frames {start}:{end} is beyond the film: it has {count} frames");
+        if let Some(Range { start, end }) = self.frames {
+            ensure!(end <= count, "--frames {start}:{end} is beyond the film: {film}");
+        }
         Ok(())
     }
 }
@@ -196,8 +207,13 @@ pub struct Made {
     pub adapter: AdapterInfo,
 }
 
-/// The motion to film, and the exact one beside it.
-pub enum Shown {
+/// The motion to film, what computed it, and the exact one beside it.
+pub struct Shown {
+    motion: ShownMotion,
+    solution: Solution,
+}
+
+enum ShownMotion {
     Rig { motion: Motion, reference: Option<Motion> },
     Disk { motion: DiskMotion, reference: Option<DiskMotion> },
 }
@@ -205,9 +221,8 @@ pub enum Shown {
 const NOT_THE_RIG: &str = "the motion is not one of two masses and one slider";
 const NOT_THE_DISK: &str = "the motion is not one of the scene's disk";
 
-impl Shown {
-    /// A motion without bodies.
-    pub fn of(case: &Case, trajectory: &Trajectory) -> anyhow::Result<Self> {
+impl ShownMotion {
+    fn of(case: &Case, trajectory: &Trajectory) -> anyhow::Result<Self> {
         if let Some(disk) = &case.disk {
             let motion = DiskMotion::new(&disk.disk, trajectory)?.context(NOT_THE_DISK)?;
             return Ok(Self::Disk { motion, reference: None });
@@ -215,8 +230,8 @@ impl Shown {
         Ok(Self::Rig { motion: Motion::new(trajectory).context(NOT_THE_RIG)?, reference: None })
     }
 
-    /// The engine's motion, that of the rig with its own bodies.
-    pub fn of_engine(case: &Case, recording: &Recording) -> anyhow::Result<Self> {
+    /// With the rig's own bodies.
+    fn of_engine(case: &Case, recording: &Recording) -> anyhow::Result<Self> {
         if case.disk.is_some() {
             return Self::of(case, &recording.trajectory);
         }
@@ -225,14 +240,31 @@ impl Shown {
         Ok(Self::Rig { motion: motion.context(NOT_THE_RIG)?, reference: None })
     }
 
-    pub fn beside(self, case: &Case, exact: &Trajectory) -> anyhow::Result<Self> {
-        Ok(match (self, Self::of(case, exact)?) {
+    fn beside(self, exact: Self) -> Self {
+        match (self, exact) {
             (Self::Rig { motion, .. }, Self::Rig { motion: exact, .. }) => Self::Rig { motion, reference: Some(exact) },
             (Self::Disk { motion, .. }, Self::Disk { motion: exact, .. }) => {
                 Self::Disk { motion, reference: Some(exact) }
             }
             (shown, _) => shown,
-        })
+        }
+    }
+}
+
+impl Shown {
+    /// A motion without bodies.
+    pub fn of(case: &Case, trajectory: &Trajectory, solution: Solution) -> anyhow::Result<Self> {
+        Ok(Self { motion: ShownMotion::of(case, trajectory)?, solution })
+    }
+
+    /// The engine's motion, that of the rig with its own bodies.
+    pub fn of_engine(case: &Case, recording: &Recording) -> anyhow::Result<Self> {
+        let solution = Solution::Engine(EngineInfo::of(motions::precision(case)).to_string());
+        Ok(Self { motion: ShownMotion::of_engine(case, recording)?, solution })
+    }
+
+    pub fn beside(self, case: &Case, exact: &Trajectory) -> anyhow::Result<Self> {
+        Ok(Self { motion: self.motion.beside(ShownMotion::of(case, exact)?), ..self })
     }
 }
 
@@ -256,13 +288,16 @@ pub fn stage(case: &Case, shown: Shown, supersample: u32, progress: &Progress) -
     let mut case = case.clone();
     case.film.width *= supersample;
     case.film.height *= supersample;
-    match shown {
-        Shown::Rig { motion, reference } => {
+    let solution = shown.solution;
+    match shown.motion {
+        ShownMotion::Rig { motion, reference } => {
             let map = super::damping_map::of(&case, progress)?;
-            Ok(Take::Rig(Box::new(Stage::new(case, motion, Beside { exact: reference, map }))))
+            let beside = Beside { exact: reference, map, solution: Some(solution) };
+            Ok(Take::Rig(Box::new(Stage::new(case, motion, beside))))
         }
-        Shown::Disk { motion, reference } => {
-            Ok(Take::Disk(Box::new(DiskStage::new(case, motion, reference).context("the scene has no disk")?)))
+        ShownMotion::Disk { motion, reference } => {
+            let stage = DiskStage::new(case, motion, reference).context("the scene has no disk")?;
+            Ok(Take::Disk(Box::new(stage.computed_by(solution))))
         }
     }
 }
@@ -285,7 +320,7 @@ pub fn make(
 ) -> anyhow::Result<Made> {
     let fade = (FADE * f64::from(film.fps)).ceil() as u64;
     let source = Source { stages, size: [film.width, film.height].map(|side| side * args.supersample), fade };
-    args.check(source.count())?;
+    args.check_of(source.count())?;
     let selected = args.selected(source.count());
     let mut renderer = renderer(args, progress)?;
     let adapter = renderer.info().clone();
@@ -293,26 +328,31 @@ pub fn make(
     if is_clear {
         progress.say("transparent background: frames with alpha and no film, for H.264 has no alpha");
     }
+    let video = if selected.is_some() || is_clear { Video::None } else { Video::Whole };
+    if video == Video::Whole && (film.width % 2 == 1 || film.height % 2 == 1) {
+        progress.say("film: H.264 needs even sides, so film.mp4 repeats the last column or row of the frames");
+    }
     let settings = FilmSettings {
         size: [film.width, film.height],
         frames_per_second: film.fps,
         supersampling: args.supersample,
         frames: selected.clone(),
-        video: if selected.is_some() || is_clear { Video::None } else { Video::Whole },
+        video,
         encoder: args.encoder()?,
         ..FilmSettings::default()
     };
     let report = film::produce(&settings, output, renderer.as_mut(), &source, &mut |at| progress.frame(at))?;
-    progress.say(&summary(&report));
+    progress.say(&summary(&report, selected.map(|part| (part, source.count()))));
     Ok(Made { report, adapter })
 }
 
-/// How long what took, for people.
-fn summary(report: &FilmReport) -> String {
+/// How long what took, for people; `part` are the frames drawn of how many, where they were not all.
+fn summary(report: &FilmReport, part: Option<(Range<u64>, u64)>) -> String {
     let t = &report.times;
+    let of = part.map_or_else(String::new, |(part, all)| format!(" ({}:{} of {all})", part.start, part.end));
     let per_frame = |time: std::time::Duration| time.as_secs_f64() * 1e3 / report.drawn.max(1) as f64;
     format!(
-        "film: {} frames, {} drawn, {} reused, {:.1} s; ms per drawn frame: list {:.1}, draw {:.1}, read back {:.1}, overlay {:.1}, \
+        "film: {} frames{of}, {} drawn, {} reused, {:.1} s; ms per drawn frame: list {:.1}, draw {:.1}, read back {:.1}, overlay {:.1}, \
          png {:.1}, video {:.1}",
         report.frames,
         report.drawn,

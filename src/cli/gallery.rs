@@ -7,7 +7,7 @@ use super::motions;
 use super::progress::Progress;
 use crate::film::{encode_small_png, gif, scaled};
 use crate::render::Renderer;
-use crate::scene::{BUILT_IN, BUILT_IN_DISKS, CameraMove, Case, Scene};
+use crate::scene::{BUILT_IN, BUILT_IN_DISKS, CameraMove, Case, Scene, Scheme};
 use crate::stage::{Take, data_colours};
 use crate::store::write_atomically;
 use anyhow::{Context, ensure};
@@ -24,6 +24,9 @@ const PICTURE_AT: f64 = 0.62;
 const LOOP_AT: f64 = 0.45;
 /// A loop shows the motion slower than the film, for its few frames a second.
 const LOOP_SPEED: f64 = 0.5;
+/// Name of the picture of a coarse engine, and its steps per period.
+const COARSE: &str = "coarse_engine";
+const COARSE_STEPS: f64 = 256.0;
 /// The disk of the gallery, width of its loop and its frames, which show one period of a wave: the loop has no seam.
 const DISK: &str = "disk_forward_wave";
 const DISK_LOOP: u32 = 360;
@@ -51,13 +54,17 @@ pub fn run(args: &GalleryArgs) -> anyhow::Result<Verdict> {
     std::fs::create_dir_all(&args.output).with_context(|| format!("{} cannot be made", args.output.display()))?;
     let mut renderer = film::renderer(&args.draw, &progress)?;
     let wanted = |name: &str| args.only.as_deref().is_none_or(|only| only == name);
-    let mut names = BUILT_IN.iter().map(|(name, _)| *name).chain([DISK]);
+    let mut names = BUILT_IN.iter().map(|(name, _)| *name).chain([COARSE, DISK]);
     ensure!(names.any(wanted), "--only {:?} is not in the gallery", args.only.as_deref().unwrap_or_default());
     for (name, text) in BUILT_IN.into_iter().filter(|(name, _)| wanted(name)) {
         let (_, case) = Scene::parse(text, name)?;
         let path = |extension: &str| args.output.join(format!("{name}.{extension}"));
         write(&path("png"), &picture(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
         write(&path("gif"), &short_loop(&case, args.draw.supersample, renderer.as_mut(), &progress)?)?;
+    }
+    if wanted(COARSE) {
+        let picture = picture(&coarse()?, args.draw.supersample, renderer.as_mut(), &progress)?;
+        write(&args.output.join(format!("{COARSE}.png")), &picture)?;
     }
     for (name, text) in BUILT_IN_DISKS.into_iter().filter(|(name, _)| *name == DISK && wanted(name)) {
         let (_, case) = Scene::parse(text, name)?;
@@ -73,10 +80,22 @@ fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     print(&path.display().to_string())
 }
 
-/// The case in the engine, ready to be drawn.
+/// The case in the engine beside the exact solution, ready to be drawn.
 fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<Take> {
-    let recording = motions::in_engine(case, &motions::start(case)?, motions::film_sampling(case))?;
-    film::stage(case, Shown::of_engine(case, &recording)?, supersample, progress)
+    let (start, sampling) = (motions::start(case)?, motions::film_sampling(case));
+    let recording = motions::in_engine(case, &start, sampling)?;
+    let exact = motions::exactly(case, &start, sampling)?;
+    film::stage(case, Shown::of_engine(case, &recording)?.beside(case, &exact)?, supersample, progress)
+}
+
+/// The built-in scene in an engine that takes its velocities at face value, with coarse steps: what a fault of the engine looks like.
+fn coarse() -> anyhow::Result<Case> {
+    let (mut scene, _) = Scene::built_in()?;
+    scene.title = "A coarse engine".to_owned();
+    scene.caption = "Velocities at face value, 256 steps a period: white outlines are the exact solution.".to_owned();
+    scene.engine.scheme = Scheme::Plain;
+    scene.engine.steps_per_period = COARSE_STEPS;
+    Ok(scene.checked(COARSE)?)
 }
 
 fn picture(case: &Case, supersample: u32, renderer: &mut dyn Renderer, progress: &Progress) -> anyhow::Result<Vec<u8>> {

@@ -56,6 +56,14 @@ pub fn film_sampling(case: &Case) -> Sampling {
     Sampling { interval: whole / (whole / finest).ceil(), t_end: case.duration }
 }
 
+/// Which build of the engine a case asks for.
+pub fn precision(case: &Case) -> engine::Precision {
+    match case.engine.precision {
+        Precision::F32 => engine::Precision::Single,
+        Precision::F64 => engine::Precision::Double,
+    }
+}
+
 /// Engine settings of a case. Where the scene leaves the step free it divides the sampling interval, so that no sample needs
 /// interpolation.
 pub fn engine_settings(case: &Case, sampling: Sampling) -> EngineSettings {
@@ -66,10 +74,7 @@ pub fn engine_settings(case: &Case, sampling: Sampling) -> EngineSettings {
     EngineSettings {
         step,
         substeps: case.engine.substeps,
-        precision: match case.engine.precision {
-            Precision::F32 => engine::Precision::Single,
-            Precision::F64 => engine::Precision::Double,
-        },
+        precision: precision(case),
         joints: match case.engine.joints {
             Joints::Impulse => engine::Joints::Impulse,
             Joints::Multibody => engine::Joints::Multibody,

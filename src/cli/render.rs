@@ -10,6 +10,7 @@ use super::{Verdict, motions};
 use crate::film::encode_png;
 use crate::render::shrunk;
 use crate::scene::{Case, Film};
+use crate::stage::Solution;
 use crate::store::{Existing, Origin, OutputDir, read_table, read_whole, sha256_hex, write_atomically};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
@@ -117,7 +118,7 @@ impl RenderArgs {
         let case = self.input.case()?;
         let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));
         let shown = match self.solver {
-            Solver::Exact => Shown::of(&case, &motions::exactly(&case, &start, sampling)?)?,
+            Solver::Exact => Shown::of(&case, &motions::exactly(&case, &start, sampling)?, Solution::Exact)?,
             Solver::Rapier => Shown::of_engine(&case, &motions::in_engine(&case, &start, sampling)?)?,
         };
         Ok((case, shown))
@@ -143,7 +144,8 @@ impl RenderArgs {
         film.theme = self.input.film.theme.unwrap_or(film.theme);
         film.background = self.input.film.background.unwrap_or(film.background);
         let case = case.refilmed(film, &path.display().to_string())?;
-        let shown = Shown::of(&case, &trajectory)?;
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let shown = Shown::of(&case, &trajectory, Solution::Stored(name.into_owned()))?;
         Ok((case, shown))
     }
 }

@@ -55,7 +55,7 @@ pub fn advice(rows: &[Row]) -> Vec<Advice> {
             configurations.push(row.configuration);
         }
     }
-    configurations.sort_by_key(|configuration| *configuration != Configuration::DEFAULT);
+    configurations.sort_by_key(|configuration| *configuration != Configuration::AVERAGED_FRICTION);
     configurations.into_iter().map(|configuration| of(rows, configuration)).collect()
 }
 
@@ -157,7 +157,7 @@ mod tests {
         let subject = |steps| Subject {
             scenario: LIMIT_CYCLE.to_owned(),
             variant: "settled".to_owned(),
-            configuration: Configuration::RECIPE,
+            configuration: Configuration::SAMPLED_FRICTION,
             reference: String::new(),
             steps_per_period: steps,
             dt: None,

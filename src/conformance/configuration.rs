@@ -61,9 +61,9 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// The second-order recipe with friction sampled at the steps: f64, impulse joints, own force laws, one substep, velocities predicted. Where
-    /// nothing rubs it is [`Self::DEFAULT`].
-    pub const RECIPE: Self = Self {
+    /// The second-order scheme with friction sampled at the steps: f64, impulse joints, own force laws, one substep, velocities predicted. Where
+    /// nothing rubs it is the same as [`Self::AVERAGED_FRICTION`], and stands for both.
+    pub const SAMPLED_FRICTION: Self = Self {
         precision: Precision::Double,
         joints: Joints::Impulse,
         mechanism: Mechanism::Hook,
@@ -71,8 +71,8 @@ impl Configuration {
         scheme: Scheme::SecondOrder,
     };
 
-    /// The recipe as it is used unless told otherwise: friction averaged over the step.
-    pub const DEFAULT: Self = Self { scheme: Scheme::AveragedFriction, ..Self::RECIPE };
+    /// The second-order scheme as it is used unless told otherwise: friction averaged over the step.
+    pub const AVERAGED_FRICTION: Self = Self { scheme: Scheme::AveragedFriction, ..Self::SAMPLED_FRICTION };
 
     /// What a user of the engine gets without thinking: f32, four substeps, velocities at face value.
     pub const ENGINE_DEFAULTS: Self = Self {
@@ -104,12 +104,12 @@ impl Configuration {
         all.map(|c| Self { scheme: Scheme::AveragedFriction, ..c })
     }
 
-    /// For readers: `f64, impulse joints, 1 substep, second-order recipe`.
+    /// For readers: `f64, impulse joints, 1 substep, velocity at face value`.
     #[must_use]
     pub fn label(self) -> String {
         let Self { precision, joints, mechanism, substeps, scheme } = self;
         let scheme = match scheme {
-            Scheme::SecondOrder => "half-step start, predicted velocity, friction at the step",
+            Scheme::SecondOrder => "half-step start, predicted velocity, friction sampled",
             Scheme::AveragedFriction => "half-step start, predicted velocity, friction averaged",
             Scheme::LaggingDamping => "half-step start, late velocity",
             Scheme::Plain => "velocity at face value",
@@ -123,7 +123,7 @@ impl Configuration {
         format!("{}, {} joints, {mechanism}{substeps} substep{plural}, {scheme}", precision.word(), joints.word())
     }
 
-    /// For legends, of the force laws as hooks: `recipe`, `face value, 4 substeps, f32`.
+    /// For legends, of the force laws as hooks: `friction sampled`, `face value, 4 substeps, f32`.
     #[must_use]
     pub fn short_name(self) -> String {
         let Self { precision, joints, substeps, scheme, .. } = self;
@@ -191,8 +191,8 @@ impl Configuration {
 
 fn scheme_name(scheme: Scheme) -> &'static str {
     match scheme {
-        Scheme::SecondOrder => "recipe, friction at the step",
-        Scheme::AveragedFriction => "recipe, friction averaged (default)",
+        Scheme::SecondOrder => "friction sampled",
+        Scheme::AveragedFriction => "friction averaged (default)",
         Scheme::LaggingDamping => "late velocity",
         Scheme::Plain => "face value",
     }

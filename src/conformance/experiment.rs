@@ -227,7 +227,7 @@ pub fn ladder(depth: Depth) -> Vec<u32> {
     }
 }
 
-/// Configurations that tell most: the recipe in either precision and with either kind of joint, its two spoilt versions, and the engine's
+/// Configurations that tell most: the second-order scheme in either precision and with either kind of joint, its two spoilt versions, and the engine's
 /// defaults.
 #[must_use]
 pub fn is_notable(configuration: Configuration) -> bool {

@@ -4,7 +4,7 @@
 //! error(h) ~ C h^p + floor
 //! ```
 //!
-//! Two orders are looked at. For the second-order recipe the order p must be 2, fitted over the steps whose error lies between
+//! Two orders are looked at. For the second-order scheme the order p must be 2, fitted over the steps whose error lies between
 //! [`ABOVE_FLOOR`] times the floor of rounding and [`SMALL`] of the motion: below, rounding decides; above, higher powers of h do. In
 //! every other configuration terms of first and second order mix, and the order must be that of the difference equation over the same
 //! steps, above the floor. The floor is that of the theory of rounding, [`rounding_floor`], not one read off the errors.
@@ -142,7 +142,7 @@ mod tests {
         Subject {
             scenario: "test".to_owned(),
             variant: String::new(),
-            configuration: Configuration::RECIPE,
+            configuration: Configuration::SAMPLED_FRICTION,
             reference: String::new(),
             steps_per_period: None,
             dt: None,

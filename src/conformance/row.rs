@@ -242,7 +242,7 @@ mod tests {
         Subject {
             scenario: "test".to_owned(),
             variant: String::new(),
-            configuration: Configuration::RECIPE,
+            configuration: Configuration::SAMPLED_FRICTION,
             reference: "closed form".to_owned(),
             steps_per_period: None,
             dt: None,

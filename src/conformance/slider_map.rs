@@ -9,10 +9,22 @@
 //! contact        w_s += d F/ms + p/ms,   s += d w_s,   p' = clamp(p - ms w_s),   w_s += (p' - p)/ms      p from the substep before
 //! saturating     w += clamp(-d kt (x + d w)/(1 + d^2 kt/m))/m
 //! ```
+//!
+//! All in f64, but for one rounding of an f32 engine that does not average out. A saturated motor adds the same `R d/m` substep after substep to
+//! a velocity that is a whole number of spacings u, so that it is rounded to `u round(R d/(m u))` each time and in the same sense. On
+//! `x = cos t` (m = 1) the spacing is `u_k = 2^-(23 + k)` while `2^-k < |v| < 2^(1 - k)`, and the mean of `F cos t`, which makes the shift of the frequency, has
+//! weight 2^-k there:
+//!
+//! ```text
+//! w = 1 + (2 R/pi) sum_k 2^-k u_k round(R d/u_k)/(R d),     and at most 2 u_1/(3 pi d) of it is rounding,  u_1 = 2^-24
+//! ```
+//!
+//! R = 0.001 at 6032 steps of 4 substeps: `R d/u_1 = 4.37` becomes 4, and the sum shifts w by -2.42e-5 (measured: -2.41e-5). The other increments, `d a`
+//! and `d w`, change from step to step by many spacings, and their roundings average out.
 
 use super::native_friction::Making;
 use crate::engine::mechanism::{ElementSpring, FrictionMechanism};
-use crate::engine::{EngineSettings, Scheme};
+use crate::engine::{EngineSettings, Precision, Scheme};
 use crate::model::OscillatorChain;
 
 /// A chain with an element of stiffness and slip force on oscillator 0.
@@ -99,7 +111,7 @@ impl SliderMap<'_> {
             FrictionMechanism::SaturatingMotor => {
                 let m = self.chain.mass()[0];
                 let wanted = -d * self.stiffness * (motion.x[0] + d * motion.w[0]) / (1.0 + d * d * self.stiffness / m);
-                motion.w[0] += wanted.clamp(-limit, limit) / m;
+                motion.w[0] += self.as_added(wanted.clamp(-limit, limit) / m, motion.w[0]);
             }
             FrictionMechanism::LimitedMotor | FrictionMechanism::JointFriction => {
                 motion.slider_velocity += d * force / ms;
@@ -112,6 +124,17 @@ impl SliderMap<'_> {
                 let impulse = (motion.impulse - ms * motion.slider_velocity).clamp(-limit, limit);
                 motion.slider_velocity += (impulse - motion.impulse) / ms;
                 motion.impulse = impulse;
+            }
+        }
+    }
+
+    /// What an increment becomes when the engine adds it to the number it stores for `to`.
+    fn as_added(&self, increment: f64, to: f64) -> f64 {
+        match self.settings.precision {
+            Precision::Double => increment,
+            Precision::Single => {
+                let stored = to as f32;
+                f64::from(stored + increment as f32) - f64::from(stored)
             }
         }
     }

@@ -264,7 +264,7 @@ mod tests {
     }
 
     fn mode(damping: f64, substeps: usize, scheme: Scheme, step: f64) -> LinearMode {
-        let configuration = Configuration { substeps, scheme, ..Configuration::RECIPE };
+        let configuration = Configuration { substeps, scheme, ..Configuration::SAMPLED_FRICTION };
         DifferenceEquation::new(&oscillator(damping), configuration, step).modes()[0]
     }
 

@@ -82,7 +82,7 @@ mod tests {
         let subject = Subject {
             scenario: "linear_oscillator".to_owned(),
             variant: "damping ratio 0".to_owned(),
-            configuration: Configuration::RECIPE,
+            configuration: Configuration::SAMPLED_FRICTION,
             reference: String::new(),
             steps_per_period: Some(64),
             dt: Some(0.1),

@@ -171,8 +171,7 @@ impl Scene {
 /// The film with its speed made non-dimensional.
 fn film_settings(film: Film, scales: &Scales) -> Result<Film, Refusal> {
     for (path, side) in [("film.width", film.width), ("film.height", film.height)] {
-        whole(path, side.into(), 64, MAX_SIDE, "an even number from 64 to 7680")?;
-        whole(path, u64::from(side % 2) * u64::from(side), 0, 0, "an even number from 64 to 7680")?;
+        whole(path, side.into(), 64, MAX_SIDE, "from 64 to 7680")?;
     }
     whole("film.fps", film.fps.into(), 1, 240, "1 to 240")?;
     let speed = checked(Range::Positive, "film.speed", film.speed)? / scales.time;

@@ -196,9 +196,9 @@ pub enum Backdrop {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Film {
-    /// Picture width, pixels, even.
+    /// Picture width, pixels. Where it is odd, the last column of the video is there twice: H.264 needs even sides.
     pub width: u32,
-    /// Picture height, pixels, even.
+    /// Picture height, pixels; as for the width.
     pub height: u32,
     /// Frames per second of film.
     pub fps: u32,

@@ -38,7 +38,7 @@ impl Panel {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Direction {
-    /// Panels, at most six: the first three beside the scene, the others below it. Without it all of them, or for a prescribed motion those that say something about it. A disk has other panels than the rig.
+    /// Panels, at most six: up to three stand below the scene; of more the first three beside it, the others below; all below in an upright picture. Without it all of them, or for a prescribed motion those that say something about it. A disk has other panels than the rig.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub panels: Option<Vec<Panel>>,
     /// A disk is seen from higher up where none is given.

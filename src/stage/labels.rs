@@ -1,5 +1,6 @@
 //! Words over the scene: headline, parameters, time, contact state, energy.
 
+use super::Solution;
 use super::motion::Instant;
 use super::numbers::with_power;
 use super::palette::Palette;
@@ -12,7 +13,14 @@ fn text(position: Vec2, size: f32, colour: Colour, bold: bool, text: String) -> 
     OverlayItem::Text { position, anchor: Anchor::Left, size, colour, bold, text }
 }
 
-/// Headline and caption, top left; the caption, shown as far as its second part says, breaks into lines that fit the width.
+/// Sizes of a headline, the usual and the smallest, and of a caption, and distance of their lines; pixels of a 720 lines high picture.
+const HEADLINE: [f32; 2] = [28.0, 19.0];
+const CAPTION: [f32; 2] = [15.0, 20.0];
+/// Height of the lines above the status: what computed the motion, and how far the exact solution is from it.
+pub const ABOVE: [f32; 2] = [14.0, 33.0];
+
+/// Headline and caption, top left; the caption, shown as far as its second part says, breaks into lines that fit the width. A long
+/// headline is written smaller, a very long one in two lines.
 pub fn draw_headline(
     title: &str,
     (caption, shown): (&str, f64),
@@ -21,19 +29,37 @@ pub fn draw_headline(
     scale: f32,
     out: &mut Vec<OverlayItem>,
 ) {
-    out.push(text(origin + Vec2::new(0.0, 26.0) * scale, 28.0 * scale, palette.text, true, title.to_owned()));
+    let [usual, least] = HEADLINE.map(|size| size * scale);
+    let size = (usual * width / text_width(title, usual, true)).clamp(least, usual);
+    let lines = wrap(title, size, true, width);
+    let mut foot = origin.y + 26.0 * scale;
+    for (row, line) in lines.into_iter().enumerate() {
+        foot = origin.y + 26.0 * scale + 1.2 * size * row as f32;
+        out.push(text(Vec2::new(origin.x, foot), size, palette.text, true, line));
+    }
     let colour = palette.faint_text.with_alpha(shown as f32);
-    for (row, line) in wrap(caption, 15.0 * scale, width).into_iter().enumerate() {
-        let place = origin + Vec2::new(0.0, 52.0 + 20.0 * row as f32) * scale;
-        out.push(text(place, 15.0 * scale, colour, false, line));
+    let [size, pitch] = CAPTION.map(|size| size * scale);
+    for (row, line) in wrap(caption, size, false, width).into_iter().enumerate() {
+        let place = Vec2::new(origin.x, foot + 26.0 * scale + pitch * row as f32);
+        out.push(text(place, size, colour, false, line));
     }
 }
 
+/// What computed the motion.
+pub fn draw_solution(solution: &Solution, palette: &Palette, place: Vec2, scale: f32, out: &mut Vec<OverlayItem>) {
+    let words = match solution {
+        Solution::Exact => "motion: exact solution".to_owned(),
+        Solution::Engine(name) => format!("motion: {name}"),
+        Solution::Stored(name) => format!("motion: {name}"),
+    };
+    out.push(text(place, 13.0 * scale, palette.faint_text, false, words));
+}
+
 /// Breaks a text between words into lines no wider than `width`.
-fn wrap(words: &str, size: f32, width: f32) -> Vec<String> {
+fn wrap(words: &str, size: f32, bold: bool, width: f32) -> Vec<String> {
     words.split_whitespace().fold(Vec::new(), |mut lines: Vec<String>, word| {
         match lines.last_mut() {
-            Some(line) if text_width(&format!("{line} {word}"), size, false) <= width => {
+            Some(line) if text_width(&format!("{line} {word}"), size, bold) <= width * (1.0 + 1e-5) => {
                 line.push(' ');
                 line.push_str(word);
             }
@@ -95,7 +121,11 @@ pub fn magnification(scales: &Scales, carriage_widths: f32) -> String {
         Scales::UNITY => ("1", f64::from(carriage_widths)),
         Scales { length, .. } => ("1 mm", 1e-3 * f64::from(carriage_widths) / length),
     };
-    let drawn = if (0.1..100.0).contains(&drawn) { format!("{drawn:.2}") } else { with_power(drawn) };
+    let drawn = match drawn {
+        0.1..100.0 => format!("{drawn:.2}"),
+        0.01..0.1 => format!("{drawn:.3}"),
+        _ => with_power(drawn),
+    };
     format!("displacement {unit} drawn as {drawn} carriage widths")
 }
 
@@ -129,9 +159,28 @@ mod tests {
     }
 
     #[test]
+    fn a_long_headline_is_written_smaller_and_then_in_lines() {
+        let palette = Palette::of(crate::scene::Theme::Dark);
+        let drawn = |title: &str| {
+            let mut out = Vec::new();
+            draw_headline(title, ("", 1.0), &palette, (Vec2::ZERO, 400.0), 1.0, &mut out);
+            let lines = out.into_iter().map(|item| match item {
+                OverlayItem::Text { size, text, .. } => (size, text),
+                other => panic!("a headline is text, not {other:?}"),
+            });
+            lines.collect::<Vec<_>>()
+        };
+        assert_eq!(drawn("Stick"), [(28.0, "Stick".to_owned())]);
+        let long = drawn("A headline for seven blades");
+        assert!(long.len() == 1 && (HEADLINE[1]..HEADLINE[0]).contains(&long[0].0), "{long:?}");
+        let longer = drawn("A headline that goes on and on about all that is seen in the film");
+        assert!(longer.len() == 2 && longer.iter().all(|(size, text)| text_width(text, *size, true) <= 400.0));
+    }
+
+    #[test]
     fn a_caption_is_broken_between_words_and_keeps_them_all() {
         let caption = "one two three four five six seven eight nine ten";
-        let lines = wrap(caption, 15.0, 120.0);
+        let lines = wrap(caption, 15.0, false, 120.0);
         assert!(lines.len() > 1 && lines.iter().all(|line| text_width(line, 15.0, false) <= 120.0));
         assert_eq!(lines.join(" "), caption);
     }

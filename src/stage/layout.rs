@@ -1,19 +1,29 @@
-//! Where things stand in the picture: the first three panels in a column at the right, the others in a row below the scene.
+//! Where things stand in the picture: scene and words above up to three panels in a row; of more, three stand in a column beside the scene.
+//! In an upright or square picture all stand below it, two in a row.
 
 use crate::render::{Camera, Rectangle};
 use glam::{Vec2, Vec3};
 
 /// Width of the scene where panels stand beside it, as a part of the picture's.
 const SCENE_WIDTH: f32 = 0.655;
-/// Free border around panels and text, gap between panels, and height of the row below: pixels of a 720 lines high picture.
+/// Free border around panels and text, gap between panels, and height of the row below six panels' scene and of the only row: pixels of a
+/// 720 lines high picture.
 const BORDER: f32 = 20.0;
 const GAP: f32 = 10.0;
 const ROW: f32 = 196.0;
+const ONLY_ROW: f32 = 236.0;
 /// Room for the headline above the scene and the status below it.
 const HEADLINE: f32 = 84.0;
 const STATUS: f32 = 62.0;
 /// Panels in the column.
 const IN_COLUMN: usize = 3;
+/// A picture is upright from this ratio of height to width on; then it counts as this many pixels wide and high, what fits, and a row of
+/// panels is this part of its height.
+const UPRIGHT: f32 = 0.9;
+const UPRIGHT_SIZE: [f32; 2] = [760.0, 1130.0];
+const UPRIGHT_ROW: f32 = 0.185;
+/// Steps in which the camera is centred: seen along the rig each leaves half of the shift.
+const CENTRING: usize = 12;
 
 /// The places of one film.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,29 +37,53 @@ pub struct Layout {
     pub scene: Rectangle,
 }
 
+/// Places side by side between `left` and `right`.
+fn row(count: usize, [left, right]: [f32; 2], [top, bottom]: [f32; 2], gap: f32) -> impl Iterator<Item = Rectangle> {
+    let wide = (right - left - gap * (count.max(1) - 1) as f32) / count.max(1) as f32;
+    (0..count).map(move |number| {
+        let start = left + number as f32 * (wide + gap);
+        Rectangle { min: Vec2::new(start, top), max: Vec2::new(start + wide, bottom) }
+    })
+}
+
 impl Layout {
     #[must_use]
     pub fn new(size: [u32; 2], panels: usize) -> Self {
         let [width, height] = size.map(|side| side as f32);
+        if height >= UPRIGHT * width {
+            return Self::upright(size, panels);
+        }
         // Words and borders fit in both directions, whatever the shape of the picture.
         let scale = (height / 720.0).min(width / 1280.0);
         let (border, gap) = (BORDER * scale, GAP * scale);
-        let (in_column, in_row) = (panels.min(IN_COLUMN), panels.saturating_sub(IN_COLUMN));
-        let right = if panels == 0 { width - border } else { width * SCENE_WIDTH };
-        let bottom = height - border - if in_row == 0 { 0.0 } else { ROW * scale + gap };
-        let place = |min: [f32; 2], max: [f32; 2]| Rectangle { min: Vec2::from(min), max: Vec2::from(max) };
-        let tall = (height - 2.0 * border - gap * (in_column.max(1) - 1) as f32) / in_column.max(1) as f32;
-        let wide = (right - border - gap * (in_row.max(1) - 1) as f32) / in_row.max(1) as f32;
-        let column = (0..in_column).map(|row| {
-            let top = border + row as f32 * (tall + gap);
-            place([right + 0.5 * border, top], [width - border, top + tall])
+        let (in_column, in_row) = if panels <= IN_COLUMN { (0, panels) } else { (IN_COLUMN, panels - IN_COLUMN) };
+        let right = if in_column == 0 { width - border } else { width * SCENE_WIDTH };
+        let low = scale * if in_column == 0 { ONLY_ROW } else { ROW };
+        let bottom = height - border - if in_row == 0 { 0.0 } else { low + gap };
+        let tall = (height - 2.0 * border - gap * (IN_COLUMN - 1) as f32) / IN_COLUMN as f32;
+        let column = (0..in_column).flat_map(|number| {
+            let top = border + number as f32 * (tall + gap);
+            row(1, [right + 0.5 * border, width - border], [top, top + tall], gap)
         });
-        let row = (0..in_row).map(|number| {
-            let left = border + number as f32 * (wide + gap);
-            place([left, height - border - ROW * scale], [left + wide, height - border])
+        let below = row(in_row, [border, right], [height - border - low, height - border], gap);
+        let panels = column.chain(below).collect();
+        let scene = Rectangle { min: Vec2::splat(border), max: Vec2::new(right, bottom) };
+        Self { size, scale, panels, scene }
+    }
+
+    fn upright(size: [u32; 2], panels: usize) -> Self {
+        let [width, height] = size.map(|side| side as f32);
+        let scale = (width / UPRIGHT_SIZE[0]).min(height / UPRIGHT_SIZE[1]);
+        let (border, gap) = (BORDER * scale, GAP * scale);
+        let rows = panels.div_ceil(2);
+        let tall = UPRIGHT_ROW * height;
+        let head = height - border - rows as f32 * (tall + gap);
+        let below = (0..rows).flat_map(|number| {
+            let top = head + gap + number as f32 * (tall + gap);
+            row((panels - 2 * number).min(2), [border, width - border], [top, top + tall], gap)
         });
-        let panels = column.chain(row).collect();
-        Self { size, scale, panels, scene: place([border, border], [right, bottom]) }
+        let scene = Rectangle { min: Vec2::splat(border), max: Vec2::new(width - border, head) };
+        Self { size, scale, panels: below.collect(), scene }
     }
 
     /// Upper left corner of the status line.
@@ -58,23 +92,57 @@ impl Layout {
         Vec2::new(self.scene.min.x, self.scene.max.y - 32.0 * self.scale)
     }
 
-    /// A camera that looks at `target` from a direction (azimuth from the front, elevation; rad) such that a box of the given half
-    /// width and half height fits between headline and status, at `distance`.
+    /// A camera that looks from a direction (azimuth from the front, elevation; rad) such that what is shown fits between headline and
+    /// status, as large as it can, drawn `zoom` times as large; `shift` moves the place looked at away from its middle.
     #[must_use]
-    pub fn camera(&self, target: Vec3, [azimuth, elevation]: [f32; 2], distance: f32, half: [f32; 2]) -> Camera {
+    pub fn camera(&self, shown: &Shown, [azimuth, elevation]: [f32; 2], zoom: f32, shift: Vec3) -> Camera {
         let [width, height] = self.size.map(|side| side as f32);
         let (top, bottom) = (self.scene.min.y + HEADLINE * self.scale, self.scene.max.y - STATUS * self.scale);
         let aspect = (self.scene.max.x - self.scene.min.x) / (bottom - top);
-        let needed = (half[0] / aspect).max(half[1]);
         let towards = Vec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
+        let right = Vec3::new(azimuth.cos(), 0.0, -azimuth.sin());
+        let up = towards.cross(right);
+        let distance = shown.distance;
+        // Tangents of the angles under which the corners are seen: least and largest to the right and up.
+        let seen = |target: Vec3| {
+            let tangents = shown.points.iter().map(|&point| {
+                let place = point - target;
+                Vec2::new(place.dot(right), place.dot(up)) / (distance - place.dot(towards))
+            });
+            tangents.fold((Vec2::MAX, Vec2::MIN), |(least, largest), at| (least.min(at), largest.max(at)))
+        };
+        let mut target = shown.middle;
+        for _ in 0..CENTRING {
+            let (least, largest) = seen(target);
+            let middle = 0.5 * distance * (least + largest);
+            target += right * middle.x + up * middle.y;
+        }
+        let (_, half) = seen(target);
+        let target = target + shift;
         Camera {
             eye: target + towards * distance,
             target,
             up: Vec3::Y,
-            vertical_field_of_view: 2.0 * (needed / distance).atan(),
+            vertical_field_of_view: 2.0 * ((half.x / aspect).max(half.y) / zoom).atan(),
             viewport: [self.scene.min.x / width, top / height, self.scene.max.x / width, bottom / height],
         }
     }
+}
+
+/// What a camera is to show: points that include all of it, a place in their middle, and the distance it is seen from; drawing units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shown {
+    pub points: Vec<Vec3>,
+    pub middle: Vec3,
+    pub distance: f32,
+}
+
+/// Corners of the box between two of them.
+pub fn corners(min: Vec3, max: Vec3) -> impl Iterator<Item = Vec3> {
+    (0..8).map(move |bits| {
+        let side = |axis: usize| if bits >> axis & 1 == 1 { max[axis] } else { min[axis] };
+        Vec3::new(side(0), side(1), side(2))
+    })
 }
 
 #[cfg(test)]
@@ -98,6 +166,30 @@ mod tests {
                 let meets =
                     |b: &Rectangle| a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
                 assert!(!all[i + 1..].iter().any(meets), "{count} panels on {size:?}: number {i} overlaps another");
+            }
+        }
+    }
+
+    /// From all sides and heights nothing is cut, nothing lies under a panel, and the room is used in one direction at least.
+    #[test]
+    fn what_is_shown_fits_its_place_from_all_sides_and_fills_it() {
+        let [min, max] = [Vec3::new(-3.0, 0.0, -0.5), Vec3::new(3.0, 1.0, 1.0)];
+        let shown = Shown { points: corners(min, max).collect(), middle: 0.5 * (min + max), distance: 10.0 };
+        for (count, size) in [0, 3, 6].into_iter().flat_map(|count| SIZES.map(|size| (count, size))) {
+            let layout = Layout::new(size, count);
+            for (azimuth, elevation) in (0..24).flat_map(|n| [0.1, 0.4, 1.2].map(|e| (0.3 * n as f32, e))) {
+                let camera = layout.camera(&shown, [azimuth, elevation], 1.0, Vec3::ZERO);
+                let places: Vec<Vec2> = shown.points.iter().map(|&p| camera.project(p, size).unwrap()).collect();
+                let min = places.iter().copied().fold(Vec2::MAX, Vec2::min);
+                let max = places.iter().copied().fold(Vec2::MIN, Vec2::max);
+                // The last step of the centring leaves less than 1 % of the picture.
+                let margin = 0.01 * size[0].max(size[1]) as f32;
+                let head = Vec2::new(0.0, HEADLINE * layout.scale);
+                let foot = Vec2::new(0.0, STATUS * layout.scale);
+                assert!(min.cmpge(layout.scene.min + head - margin).all(), "{azimuth} {elevation} {min}");
+                assert!(max.cmple(layout.scene.max - foot + margin).all(), "{azimuth} {elevation} {max}");
+                let room = layout.scene.max - layout.scene.min - head - foot;
+                assert!(((max - min) / room).max_element() > 0.98);
             }
         }
     }

@@ -22,7 +22,7 @@ pub use panels::DampingMap;
 pub use plot::{Axis, Plot};
 pub use take::Take;
 
-use crate::render::{Anchor, Camera, DrawList, OverlayItem, Rectangle};
+use crate::render::{Anchor, Camera, Colour, DrawList, OverlayItem, Rectangle};
 use crate::scene::{Case, View};
 use ghost::Ghost;
 use glam::{Vec2, Vec3};
@@ -31,17 +31,29 @@ use palette::Palette;
 use panels::Panels;
 use rig::RigModel;
 
-/// Middle of the rig, half of the width and height that show all of it, and the camera's distance; drawing units.
-const MIDDLE: Vec3 = Vec3::new(-0.1, 0.52, 0.12);
-const EXTENT: [f32; 2] = [3.7, 1.4];
-const DISTANCE: f32 = 10.3;
-/// Width of the shade beside the panels in a close view, pixels of a 720 lines high picture, and its steps.
-const SCRIM: f32 = 56.0;
-const SCRIM_STEPS: u32 = 28;
+/// The shade behind panels and words in a close view: width of its soft edges, height behind headline and status, pixels of a 720 lines
+/// high picture; steps of an edge, and its opacity behind words.
+const SCRIM: f32 = 48.0;
+const SCRIM_HEAD: f32 = 80.0;
+const SCRIM_FOOT: f32 = 56.0;
+const SCRIM_STEPS: u32 = 24;
+const WORDS: f32 = 0.72;
+
+/// What computed a motion: written below the scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Solution {
+    Exact,
+    /// A physics engine: name, version, number format.
+    Engine(String),
+    /// A stored trajectory, by the name of its file.
+    Stored(String),
+}
 
 /// What a film may show beside its motion.
 #[derive(Debug, Clone, Default)]
 pub struct Beside {
+    /// Where the motion is from.
+    pub solution: Option<Solution>,
     /// The exact motion from the same start.
     pub exact: Option<Motion>,
     /// The diagram the scene is a part of.
@@ -58,6 +70,7 @@ pub struct Stage {
     rig: RigModel,
     ghost: Option<Ghost>,
     panels: Panels,
+    solution: Option<Solution>,
 }
 
 impl Stage {
@@ -69,7 +82,7 @@ impl Stage {
         let panels = Panels::new(&case, &motion, beside.map.as_ref(), &layout.panels, layout.scale, palette);
         let rig = RigModel::new(&case, &motion, palette);
         let ghost = beside.exact.and_then(|exact| Ghost::new(&motion, exact, rig.magnification()));
-        Self { case, motion, palette, layout, rig, ghost, panels }
+        Self { case, motion, palette, layout, rig, ghost, panels, solution: beside.solution }
     }
 
     /// Frames that show the motion from its start to its end; fewer than the scene asks for where the motion diverged.
@@ -137,6 +150,9 @@ impl Stage {
         let room = scene.max.x - scene.min.x;
         labels::draw_headline(&self.case.title, caption, palette, (scene.min, room), scale, out);
         let status = self.layout.status();
+        if let Some(solution) = &self.solution {
+            labels::draw_solution(solution, palette, status - Vec2::new(0.0, labels::ABOVE[0]) * scale, scale, out);
+        }
         labels::draw_status(&self.case, palette, now, (status, scene.max.x), scale, out);
         out.push(OverlayItem::Text {
             position: Vec2::new(scene.max.x - 14.0 * scale, status.y + 3.0 * scale),
@@ -146,29 +162,7 @@ impl Stage {
             bold: false,
             text: labels::magnification(&self.case.scales, self.rig.carriage_widths()),
         });
-        let anchors = self.rig.anchors(now);
-        // The springs pass behind the letter of the normal force.
-        if let Some(centre) = camera.project(anchors.normal_force, size) {
-            let fill = palette.panel.with_alpha(0.65);
-            out.push(OverlayItem::Disc { centre, radius: 10.0 * scale, fill, stroke: None });
-        }
-        let mut word = |place: Vec3, size_px: f32, colour, text: &str, shift: Vec2| {
-            if let Some(position) = camera.project(place, size) {
-                out.push(OverlayItem::Text {
-                    position: position + shift * scale,
-                    anchor: Anchor::Centre,
-                    size: size_px * scale,
-                    colour,
-                    bold: true,
-                    text: text.to_owned(),
-                });
-            }
-        };
-        for (place, name) in anchors.masses.into_iter().zip(["1", "2"]) {
-            word(place, 22.0, palette::CARRIAGE_TEXT, name, Vec2::new(0.0, 8.0));
-        }
-        word(anchors.normal_force, 14.0, palette.text, "N", Vec2::new(0.0, 5.0));
-        word(anchors.pad, 11.0, palette::LABEL_ON_METAL, "friction pad", Vec2::ZERO);
+        self.draw_names(now, camera, out);
         let above_status = Vec2::new(0.0, 14.0) * scale;
         if self.case.prescribed.is_none() {
             out.push(OverlayItem::Text {
@@ -181,33 +175,80 @@ impl Stage {
             });
         }
         if let Some(ghost) = &self.ghost {
-            let place = status - above_status;
+            let place = status - Vec2::new(0.0, labels::ABOVE[1]) * scale;
             ghost.draw(&self.rig, camera, size, now, (palette, place, scale), out);
         }
     }
 
-    /// Darkens the column of panels where a close view would show parts of the rig between them.
+    /// Names on the parts of the rig, as far as their faces are turned to the camera.
+    fn draw_names(&self, now: &Instant, camera: &Camera, out: &mut Vec<OverlayItem>) {
+        let (scale, palette) = (self.layout.scale, &self.palette);
+        let size = [self.case.film.width, self.case.film.height];
+        // 1 from the front, -1 from behind; in between nothing can be read.
+        let facing = (camera.eye - camera.target).normalize_or_zero().z;
+        let turned = |facing: f32| ((facing - 0.1) / 0.3).clamp(0.0, 1.0);
+        let anchors = self.rig.anchors(now, facing >= 0.0);
+        // The springs pass behind the letter of the normal force.
+        if let Some(centre) = camera.project(anchors.normal_force, size).filter(|_| turned(facing) > 0.0) {
+            let fill = palette.panel.with_alpha(0.65 * turned(facing));
+            out.push(OverlayItem::Disc { centre, radius: 10.0 * scale, fill, stroke: None });
+        }
+        let mut word = |place: Vec3, size_px: f32, colour: Colour, text: &str, (shift, shown): (f32, f32)| {
+            if let Some(position) = camera.project(place, size).filter(|_| shown > 0.0) {
+                out.push(OverlayItem::Text {
+                    position: position + Vec2::new(0.0, shift) * scale,
+                    anchor: Anchor::Centre,
+                    size: size_px * scale,
+                    colour: colour.with_alpha(shown),
+                    bold: true,
+                    text: text.to_owned(),
+                });
+            }
+        };
+        for (place, name) in anchors.masses.into_iter().zip(["1", "2"]) {
+            word(place, 22.0, palette::CARRIAGE_TEXT, name, (8.0, turned(facing.abs())));
+        }
+        word(anchors.normal_force, 14.0, palette.text, "N", (5.0, turned(facing)));
+        word(anchors.pad, 11.0, palette::LABEL_ON_METAL, "friction pad", (0.0, turned(facing)));
+    }
+
+    /// Darkens the places of panels and words where a close view would show parts of the rig behind them, with soft edges.
     fn draw_scrim(&self, seconds: f64, out: &mut Vec<OverlayItem>) {
         let closeness = ((self.view(seconds).zoom - 1.0) / 0.5).clamp(0.0, 1.0) as f32;
         let backdrop = self.palette.backdrop;
-        if closeness == 0.0 || self.layout.panels.is_empty() || backdrop.is_transparent() {
+        if closeness == 0.0 || backdrop.is_transparent() {
             return;
         }
-        let (width, left) = (SCRIM * self.layout.scale, self.layout.scene.max.x);
-        let [right, height] = [self.case.film.width, self.case.film.height].map(|side| side as f32);
-        let mut strip = |from: f32, to: f32, part: f32| {
+        let scale = self.layout.scale;
+        let end = Vec2::new(self.case.film.width as f32, self.case.film.height as f32);
+        let edge = self.layout.scene.max;
+        let beside = self.layout.panels.iter().any(|panel| panel.min.x >= edge.x);
+        let mut shade = |min: Vec2, max: Vec2, part: f32| {
             out.push(OverlayItem::Box {
-                area: Rectangle { min: Vec2::new(from.round(), 0.0), max: Vec2::new(to.round(), height) },
+                area: Rectangle { min: min.round(), max: max.round() },
                 corner_radius: 0.0,
                 fill: backdrop.top.with_alpha(part * closeness),
                 stroke: None,
             });
         };
-        for number in 0..SCRIM_STEPS {
-            let place = |n: u32| left - width * (1.0 - n as f32 / SCRIM_STEPS as f32);
-            strip(place(number), place(number + 1), (number as f32 + 0.5) / SCRIM_STEPS as f32);
+        let right = if beside { edge.x } else { end.x };
+        let [head, foot] = [SCRIM_HEAD * scale, edge.y - SCRIM_FOOT * scale];
+        let soft = SCRIM * scale;
+        for n in 0..SCRIM_STEPS {
+            let (from, to) = (n as f32 / SCRIM_STEPS as f32, (n + 1) as f32 / SCRIM_STEPS as f32);
+            let part = 0.5 * (from + to);
+            shade(Vec2::new(0.0, head + soft * (1.0 - to)), Vec2::new(right, head + soft * (1.0 - from)), WORDS * part);
+            shade(Vec2::new(0.0, foot - soft * (1.0 - from)), Vec2::new(right, foot - soft * (1.0 - to)), WORDS * part);
+            if beside {
+                shade(Vec2::new(edge.x - soft * (1.0 - from), 0.0), Vec2::new(edge.x - soft * (1.0 - to), end.y), part);
+            }
         }
-        strip(left, right, 1.0);
+        shade(Vec2::ZERO, Vec2::new(right, head), WORDS);
+        shade(Vec2::new(0.0, foot), Vec2::new(right, edge.y), WORDS);
+        shade(Vec2::new(0.0, edge.y), Vec2::new(right, end.y), 1.0);
+        if beside {
+            shade(Vec2::new(edge.x, 0.0), end, 1.0);
+        }
     }
 
     fn view(&self, seconds: f64) -> View {
@@ -220,6 +261,6 @@ impl Stage {
         let view = self.view(seconds);
         let shift = Vec3::from(view.shift.map(|shift| shift as f32));
         let direction = [view.azimuth, view.elevation].map(|angle| angle.to_radians() as f32);
-        self.layout.camera(MIDDLE + shift, direction, DISTANCE, EXTENT.map(|half| half / view.zoom as f32))
+        self.layout.camera(&rig::shown(), direction, view.zoom as f32, shift)
     }
 }

@@ -8,6 +8,9 @@ use glam::Vec2;
 const MOST_TICKS: f64 = 8.0;
 const FEW_TICKS: f64 = 4.5;
 
+/// Length over which the numbers of a sliding axis fade, pixels of a 720 lines high picture.
+const FADE: f32 = 16.0;
+
 /// A range of values with round tick marks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
@@ -15,6 +18,10 @@ pub struct Axis {
     pub max: f64,
     /// Distance of two ticks.
     pub tick: f64,
+    /// Numbers are written as multiples of this.
+    pub multiple: f64,
+    /// Moves with time: its numbers fade in and out at its ends.
+    pub is_sliding: bool,
 }
 
 impl Axis {
@@ -23,7 +30,13 @@ impl Axis {
     pub fn covering(min: f64, max: f64) -> Self {
         let span = (max - min).max(1e-12);
         let margin = 0.06 * span;
-        Self { min: min - margin, max: max + margin, tick: round_tick(span / MOST_TICKS) }
+        Self {
+            min: min - margin,
+            max: max + margin,
+            tick: round_tick(span / MOST_TICKS),
+            multiple: 1.0,
+            is_sliding: false,
+        }
     }
 
     /// The range `-limit..=limit` with a margin.
@@ -35,13 +48,19 @@ impl Axis {
     /// Exactly `min..=max`.
     #[must_use]
     pub fn exactly(min: f64, max: f64) -> Self {
-        Self { min, max, tick: round_tick((max - min) / MOST_TICKS) }
+        Self { min, max, tick: round_tick((max - min) / MOST_TICKS), multiple: 1.0, is_sliding: false }
     }
 
     /// The same range with fewer ticks, for small plots.
     #[must_use]
     pub fn sparse(self) -> Self {
         Self { tick: round_tick((self.max - self.min) / FEW_TICKS), ..self }
+    }
+
+    /// From `min` to `max`, with ticks where they are at all times.
+    #[must_use]
+    pub fn slid_to(self, min: f64, max: f64) -> Self {
+        Self { min, max, is_sliding: true, ..self }
     }
 
     fn ticks(self) -> impl Iterator<Item = f64> {
@@ -51,11 +70,12 @@ impl Axis {
 
     /// Digits after the point that tell two ticks apart.
     fn decimals(self) -> usize {
-        (-self.tick.log10().floor()).clamp(0.0, 9.0) as usize
+        // A tick of 1e-3 in thousandths is 1, up to its last digit.
+        (-(self.tick / self.multiple * (1.0 + 1e-12)).log10().floor()).clamp(0.0, 9.0) as usize
     }
 
     fn written(self, tick: f64) -> String {
-        format!("{tick:.*}", self.decimals()).replace('-', "−")
+        format!("{:.*}", self.decimals(), tick / self.multiple).replace('-', "−")
     }
 
     fn part(self, value: f64) -> f32 {
@@ -120,23 +140,42 @@ impl Plot {
             fill: self.palette.panel,
             stroke: Some(self.stroke(1.0, self.palette.panel_edge)),
         });
-        // The label of the x axis stands at the right end of the tick labels, which leave it room.
-        let wide = |text: &str| text_width(text, 11.0 * self.scale, false);
-        let room = self.area().max.x - wide(&self.x_label) - 6.0 * self.scale;
         for value in self.x.ticks() {
             self.draw_rule([self.pixel(value, self.y.min), self.pixel(value, self.y.max)], value == 0.0, out);
-            let place = self.pixel(value, self.y.min) + Vec2::new(0.0, 14.0) * self.scale;
-            let number = self.x.written(value);
-            if place.x + 0.5 * wide(&number) < room {
-                out.push(self.text(place, Anchor::Centre, number));
-            }
         }
+        self.draw_x_numbers(out);
         for value in self.y.ticks() {
             self.draw_rule([self.pixel(self.x.min, value), self.pixel(self.x.max, value)], value == 0.0, out);
             let place = self.pixel(self.x.min, value) + Vec2::new(-6.0, 3.5) * self.scale;
             out.push(self.text(place, Anchor::Right, self.y.written(value)));
         }
         self.draw_labels(out);
+    }
+
+    /// The label of the x axis stands at the right end of the numbers, which leave it room. Along a sliding axis they fade within [`FADE`]
+    /// of it, and beyond the left end.
+    fn draw_x_numbers(&self, out: &mut Vec<OverlayItem>) {
+        let (s, area) = (self.scale, self.area());
+        let wide = |text: &str| text_width(text, 11.0 * s, false);
+        let room = area.max.x - wide(&self.x_label) - 6.0 * s;
+        let beyond = if self.x.is_sliding { self.x.tick } else { 0.0 };
+        for value in (Axis { min: self.x.min - beyond, ..self.x }).ticks() {
+            let place = self.pixel(value, self.y.min) + Vec2::new(0.0, 14.0) * s;
+            let number = self.x.written(value);
+            let free = room - (place.x + 0.5 * wide(&number));
+            let inside = FADE * s + (place.x - area.min.x).min(0.0);
+            let shown = if self.x.is_sliding { free.min(inside) / (FADE * s) } else { f32::from(free > 0.0) };
+            if shown > 0.0 {
+                out.push(OverlayItem::Text {
+                    position: place,
+                    anchor: Anchor::Centre,
+                    size: 11.0 * s,
+                    colour: self.palette.faint_text.with_alpha(shown.min(1.0)),
+                    bold: false,
+                    text: number,
+                });
+            }
+        }
     }
 
     fn draw_labels(&self, out: &mut Vec<OverlayItem>) {
@@ -176,9 +215,14 @@ impl Plot {
 
     /// The current point.
     pub fn draw_marker(&self, x: f64, y: f64, colour: Colour, out: &mut Vec<OverlayItem>) {
+        self.draw_disc([x, y], 4.5, colour, out);
+    }
+
+    /// A disc with a rim at a data point, its radius in pixels of a 720 lines high picture.
+    pub fn draw_disc(&self, [x, y]: [f64; 2], radius: f32, colour: Colour, out: &mut Vec<OverlayItem>) {
         out.push(OverlayItem::Disc {
             centre: self.pixel(x, y),
-            radius: 4.5 * self.scale,
+            radius: radius * self.scale,
             fill: colour,
             stroke: Some(self.stroke(1.5, self.palette.text)),
         });
@@ -240,6 +284,11 @@ mod tests {
         assert_eq!(ticks, [-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5]);
         assert_eq!(axis.decimals(), 1);
         assert_eq!(Axis::exactly(0.0, 60.0).tick, 10.0);
+        let millimetres = Axis { multiple: 1e-3, ..Axis::exactly(-0.002, 0.002) };
+        assert_eq!(
+            millimetres.sparse().ticks().map(|x| millimetres.sparse().written(x)).collect::<Vec<_>>(),
+            ["−2", "−1", "0", "1", "2"]
+        );
     }
 
     #[test]

@@ -79,8 +79,8 @@ pub struct OutputDir {
     sha256: String,
     existing: Existing,
     journal: Mutex<Journal>,
-    /// Held for its lock; `None` where the file system has none.
-    _lock: Option<File>,
+    /// `None` where the file system has none.
+    _lock: Option<Lock>,
 }
 
 impl OutputDir {
@@ -206,12 +206,25 @@ impl Write for Summing<'_> {
     }
 }
 
-/// Locks the directory itself, which leaves no lock file behind.
-fn lock_directory(root: &Path) -> Result<Option<File>, StoreError> {
+/// The directory itself, locked, which leaves no lock file behind.
+#[derive(Debug)]
+struct Lock(File);
+
+impl Drop for Lock {
+    /// Closing alone does not end it: a process that another thread is just starting has a copy of the handle until it becomes another
+    /// program.
+    fn drop(&mut self) {
+        if let Err(error) = self.0.unlock() {
+            tracing::debug!("a directory stays locked until its handle is closed: {error}");
+        }
+    }
+}
+
+fn lock_directory(root: &Path) -> Result<Option<Lock>, StoreError> {
     // Directories cannot be opened everywhere, nor locked: then the user has to keep runs apart.
     let Ok(directory) = File::open(root) else { return Ok(None) };
     match directory.try_lock() {
-        Ok(()) => Ok(Some(directory)),
+        Ok(()) => Ok(Some(Lock(directory))),
         Err(fs::TryLockError::WouldBlock) => Err(StoreError::InUse { path: root.to_owned() }),
         Err(fs::TryLockError::Error(error)) => {
             tracing::debug!("no lock on {}: {error}", root.display());

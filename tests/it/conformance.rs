@@ -51,10 +51,10 @@ fn numerical_damping_follows_its_formula_in_both_precisions_at_three_steps() {
 }
 
 #[test]
-fn the_recipe_is_of_second_order_in_state_frequency_damping_and_switching_time() {
+fn the_second_order_scheme_is_of_second_order_in_state_frequency_damping_and_switching_time() {
     let steps = [64, 128, 256, 512, 1024, 2048];
     for precision in [Precision::Double, Precision::Single] {
-        let configuration = Configuration { precision, ..Configuration::RECIPE };
+        let configuration = Configuration { precision, ..Configuration::SAMPLED_FRICTION };
         let mut all = rows("linear_oscillator", "damping ratio 0.1", configuration, &steps);
         all.extend(rows("limit_cycle", BESIDE, configuration, &steps));
         let order = |quantity: &str, scenario: &str| {
@@ -93,7 +93,7 @@ fn at_the_defaults_a_torus_stands_where_the_exact_diagram_has_a_limit_cycle() {
     let defaults = Configuration { precision: Precision::Double, ..Configuration::ENGINE_DEFAULTS };
     let xi1 = "xi1 = -0.020";
     for (configuration, steps, physics) in
-        [(defaults, 377, Physics::Wrong), (Configuration::DEFAULT, 256, Physics::Right)]
+        [(defaults, 377, Physics::Wrong), (Configuration::AVERAGED_FRICTION, 256, Physics::Right)]
     {
         let rows = rows("amplitude_diagram", xi1, configuration, &[steps]);
         let row = |quantity: &str| rows.iter().find(|row| row.quantity == quantity).unwrap();
@@ -109,7 +109,7 @@ fn at_the_defaults_a_torus_stands_where_the_exact_diagram_has_a_limit_cycle() {
 }
 
 #[test]
-fn short_scenarios_pass_in_the_recipe() {
+fn short_scenarios_pass_in_the_second_order_scheme() {
     for (scenario, variant, steps) in [
         ("free_flight", "no force", [64, 256, 1024]),
         ("free_flight", "constant force 0.1", [64, 256, 1024]),
@@ -120,7 +120,7 @@ fn short_scenarios_pass_in_the_recipe() {
         ("energy_ledger", "", [64, 256, 1024]),
         ("joint_drift", "", [64, 256, 1024]),
     ] {
-        let rows = rows(scenario, variant, Configuration::RECIPE, &steps);
+        let rows = rows(scenario, variant, Configuration::SAMPLED_FRICTION, &steps);
         assert!(rows.iter().filter(|row| row.verdict == Verdict::Passed).count() >= 3, "{scenario}: {rows:#?}");
         let failed: Vec<_> = rows.iter().filter(|row| row.verdict == Verdict::Failed).collect();
         assert!(failed.is_empty(), "{failed:#?}");
@@ -146,13 +146,13 @@ impl Scenario for Small {
         "closed form"
     }
     fn cases(&self, _: Depth) -> Vec<Case> {
-        let plain = Configuration { scheme: Scheme::Plain, ..Configuration::RECIPE };
+        let plain = Configuration { scheme: Scheme::Plain, ..Configuration::SAMPLED_FRICTION };
         let fine = Configuration { substeps: 8, ..plain };
         let of = |configuration, depth| {
             let (_, case) = case("linear_oscillator", "damping ratio 0", configuration, &[32, 64, 128]);
             Case { depth, ..case }
         };
-        vec![of(Configuration::RECIPE, Depth::Quick), of(plain, Depth::Quick), of(fine, Depth::Full)]
+        vec![of(Configuration::SAMPLED_FRICTION, Depth::Quick), of(plain, Depth::Quick), of(fine, Depth::Full)]
     }
     fn run(&self, case: &Case, bench: &dyn stickslip::conformance::Bench) -> Result<Vec<Row>, ConformanceError> {
         self.computed.fetch_add(1, Ordering::SeqCst);
@@ -203,7 +203,7 @@ fn finished_cases_are_taken_over_unless_stale_or_damaged() {
 fn small_report(depth: Depth) -> Report {
     let scenarios = small();
     let mut rows = compute(&scenarios, depth, None, &Rapier, &|_, _| {}).unwrap();
-    rows.extend(self::rows("limit_cycle", BESIDE, Configuration::RECIPE, &[64, 128, 256]));
+    rows.extend(self::rows("limit_cycle", BESIDE, Configuration::SAMPLED_FRICTION, &[64, 128, 256]));
     Report::new(&scenarios, depth, rows, None)
 }
 

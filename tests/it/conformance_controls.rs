@@ -11,7 +11,7 @@ use stickslip::model::{ChainBuilder, JenkinsElement, OscillatorChain, Prescribed
 const STEPS: [u32; 4] = [128, 256, 512, 1024];
 const BESIDE: &str = "ten periods beside the cycle at xi1 = -0.06";
 const SETTLED: &str = "settled at xi1 = -0.01";
-const AVERAGED: Configuration = Configuration { scheme: Scheme::AveragedFriction, ..Configuration::RECIPE };
+const AVERAGED: Configuration = Configuration::AVERAGED_FRICTION;
 
 /// Friction as a nonlinear spring: it unloads along the curve it was loaded on, so that no energy is lost.
 #[derive(Debug)]
@@ -84,12 +84,12 @@ impl Bench for Faulty {
 }
 
 fn faulty(fault: Fault, scenario: &str, variant: &str) -> Vec<Row> {
-    faulty_at(fault, scenario, variant, Configuration::RECIPE, &STEPS)
+    faulty_at(fault, scenario, variant, Configuration::SAMPLED_FRICTION, &STEPS)
 }
 
-/// The diagram is made with the recipe as it is used, friction averaged; single motions show more where it is sampled.
-fn recipe_of(scenario: &str) -> Configuration {
-    if scenario == "amplitude_diagram" { Configuration::DEFAULT } else { Configuration::RECIPE }
+/// The diagram is made with friction averaged, as it is used; single motions show more where it is sampled.
+fn configuration_of(scenario: &str) -> Configuration {
+    if scenario == "amplitude_diagram" { Configuration::AVERAGED_FRICTION } else { Configuration::SAMPLED_FRICTION }
 }
 
 fn faulty_at(fault: Fault, scenario: &str, variant: &str, configuration: Configuration, steps: &[u32]) -> Vec<Row> {
@@ -168,7 +168,7 @@ fn every_motion_with_friction_notices_friction_that_does_not_unload() {
         ("secondary_hopf", "8 phases", 128),
         ("hysteresis", "", 130),
     ] {
-        red(&faulty_at(Fault::WrongFriction, scenario, variant, recipe_of(scenario), &[steps]));
+        red(&faulty_at(Fault::WrongFriction, scenario, variant, configuration_of(scenario), &[steps]));
     }
 }
 
@@ -183,7 +183,7 @@ fn every_motion_with_damping_notices_its_sign() {
         ("chaos", "", 128),
         ("secondary_hopf", "8 phases", 128),
     ] {
-        red(&faulty_at(Fault::DampingSign, scenario, variant, recipe_of(scenario), &[steps]));
+        red(&faulty_at(Fault::DampingSign, scenario, variant, configuration_of(scenario), &[steps]));
     }
 }
 
@@ -199,7 +199,7 @@ fn every_second_order_motion_notices_a_lost_half_step() {
         ("amplitude_diagram", "xi1 = -0.060", 256),
         ("secondary_hopf", "8 phases", 128),
     ] {
-        let rows = faulty_at(Fault::LostHalfStep, scenario, variant, recipe_of(scenario), &[steps]);
+        let rows = faulty_at(Fault::LostHalfStep, scenario, variant, configuration_of(scenario), &[steps]);
         assert!(rows.iter().any(|row| row.verdict == Verdict::Failed), "{scenario}: {rows:#?}");
     }
 }
@@ -224,7 +224,7 @@ fn the_finest_hopf_points_are_right_at_every_phase_only_with_averaged_friction()
         let rows = rows("secondary_hopf", "8 phases", configuration, &[2048]);
         rows.into_iter().find(|row| row.quantity == "secondary_hopf_every_phase").unwrap()
     };
-    let sampled = every_phase(Configuration::RECIPE);
+    let sampled = every_phase(Configuration::SAMPLED_FRICTION);
     assert_eq!((sampled.verdict, sampled.physics), (Verdict::Passed, Physics::Wrong), "{sampled:?}");
     assert!(sampled.reason.contains("7 of 8 phases"), "{sampled:?}");
     let averaged = every_phase(AVERAGED);
@@ -248,7 +248,7 @@ fn averaged_friction_is_of_second_order() {
 
 #[test]
 fn without_a_fault_chaos_is_chaos() {
-    let rows = rows("chaos", "", Configuration::RECIPE, &[128]);
+    let rows = rows("chaos", "", Configuration::SAMPLED_FRICTION, &[128]);
     all_green(&rows);
     let chaotic = rows.iter().find(|row| row.quantity == "is_chaotic").unwrap();
     assert_eq!((chaotic.found, chaotic.exact), (Some(1.0), Some(1.0)), "{chaotic:?}");
@@ -257,7 +257,7 @@ fn without_a_fault_chaos_is_chaos() {
 
 #[test]
 fn without_a_fault_the_same_rows_are_green() {
-    all_green(&rows("friction_decay", "", Configuration::RECIPE, &STEPS));
-    all_green(&rows("limit_cycle", BESIDE, Configuration::RECIPE, &STEPS));
-    all_green(&rows("coupled_oscillators", "", Configuration::RECIPE, &STEPS));
+    all_green(&rows("friction_decay", "", Configuration::SAMPLED_FRICTION, &STEPS));
+    all_green(&rows("limit_cycle", BESIDE, Configuration::SAMPLED_FRICTION, &STEPS));
+    all_green(&rows("coupled_oscillators", "", Configuration::SAMPLED_FRICTION, &STEPS));
 }

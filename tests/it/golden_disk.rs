@@ -1,6 +1,6 @@
 //! A whole frame of a disk against a stored one, as `golden` does it for the rig.
 //!
-//! The stored picture is renewed by `cargo test --test it -- --ignored renew_the_golden_disk`, after which it is to be looked at.
+//! The stored picture is renewed with the others.
 
 use crate::golden::{differences, draw, on_cpu, worst};
 use std::path::PathBuf;
@@ -43,9 +43,7 @@ fn stored() -> image::RgbaImage {
     image::open(path()).unwrap().to_rgba8()
 }
 
-#[test]
-#[ignore = "writes the picture the other tests compare with"]
-fn renew_the_golden_disk() {
+pub fn renew() {
     std::fs::write(path(), stickslip::film::encode_png(&on_cpu(&list())).unwrap()).unwrap();
 }
 

@@ -13,10 +13,6 @@ mod browser;
 mod chain;
 #[cfg(feature = "cli")]
 mod cli;
-#[cfg(feature = "cli")]
-mod cli_analysis;
-#[cfg(feature = "cli")]
-mod cli_slow_flow;
 #[cfg(feature = "engine")]
 mod compare;
 #[cfg(feature = "cli")]
@@ -68,6 +64,10 @@ mod layering;
 mod lyapunov;
 #[cfg(feature = "cli")]
 mod mechanisms;
+#[cfg(feature = "cli")]
+mod modified_hopf;
+#[cfg(feature = "cli")]
+mod motor_rounding;
 #[cfg(feature = "engine")]
 mod numerical_damping;
 mod orbits;

@@ -62,14 +62,14 @@ fn one_step_of_the_difference_equation_is_the_one_found_by_hand() {
     let rig = rig();
     let start = State::two_mass([0.0, 0.0, 1.0, 0.0, 0.0]);
     // a = (0.02, 0.03). Face value, one substep, h = 0.5: w = (1.01, 0.015), x = h w, f = x1.
-    let plain = Configuration { scheme: stickslip::engine::Scheme::Plain, ..Configuration::RECIPE };
+    let plain = Configuration { scheme: stickslip::engine::Scheme::Plain, ..Configuration::SAMPLED_FRICTION };
     let motion = DifferenceEquation::new(rig.chain(), plain, 0.5).motion(&start, 1, 1);
     let found: Vec<f64> = motion.samples[1].state.components().collect();
     for (found, expected) in found.iter().zip([0.505, 0.0075, 1.01, 0.015, 0.505]) {
         assert!((found - expected).abs() < 1e-15, "{found} {expected}");
     }
     // Half a step back, w_0 = v_0 - 0.25 a: x = 0.5 (w_0 + 0.5 a) = 0.5 v_0 + 0.125 a.
-    let motion = DifferenceEquation::new(rig.chain(), Configuration::RECIPE, 0.5).motion(&start, 1, 1);
+    let motion = DifferenceEquation::new(rig.chain(), Configuration::SAMPLED_FRICTION, 0.5).motion(&start, 1, 1);
     let x = &motion.samples[1].state.positions;
     assert!((x[0] - 0.5025).abs() < 1e-15 && (x[1] - 0.00375).abs() < 1e-15, "{x:?}");
 }

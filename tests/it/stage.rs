@@ -29,7 +29,7 @@ fn map() -> DampingMap {
 }
 
 fn stage(case: &Case, trajectory: &Trajectory) -> Stage {
-    let beside = Beside { exact: None, map: Some(map()) };
+    let beside = Beside { map: Some(map()), ..Beside::default() };
     Stage::new(case.clone(), Motion::new(trajectory).unwrap(), beside)
 }
 
@@ -181,14 +181,14 @@ fn the_ledger_shows_the_works_of_the_last_period() {
 }
 
 #[test]
-fn the_slow_amplitudes_are_the_largest_elongations_of_the_last_swing() {
+fn the_slow_amplitudes_are_between_the_largest_elongations_of_a_period_ago() {
     let (case, trajectory) = torus();
     let stage = stage(&case, &trajectory);
     for index in [100, 333, 600] {
         let [a1, a2] = discs(&panel(&stage.frame(index), Panel::Amplitudes))[0];
         let time = stage.time(index);
-        // The mark is drawn at a time up to half a period before the frame, between two turning points half a period apart.
-        let swing = trajectory.samples.iter().filter(|sample| (time - 8.0..=time + 1.0).contains(&sample.time));
+        // The mark is drawn at a time a period (6.3) before the frame, between two turning points half a period apart.
+        let swing = trajectory.samples.iter().filter(|sample| (time - 10.5..=time - 2.0).contains(&sample.time));
         let extremes = |mass: usize| {
             let tops = swing.clone().collect::<Vec<_>>();
             let tops: Vec<f64> = tops
@@ -242,7 +242,7 @@ fn the_exact_solution_is_outlined_where_it_differs_and_not_where_it_does_not() {
     }
     // Words about the exact solution, and faces in the outline's colour: white in the dark theme, all but clear.
     let shown = |exact: &Trajectory| {
-        let beside = Beside { exact: Motion::new(exact), map: None };
+        let beside = Beside { exact: Motion::new(exact), ..Beside::default() };
         let list = Stage::new(case.clone(), motion.clone(), beside).frame(200);
         let is_face = |item: &&OverlayItem| matches!(item, OverlayItem::Polygon { fill, .. } if fill.0[..3] == [255; 3] && (1..40).contains(&fill.0[3]));
         let words = list.overlay.iter().find_map(|item| match item {
@@ -293,20 +293,25 @@ fn the_magnification_of_displacements_is_written() {
     }
 }
 
-/// Every number and name that is drawn lies inside the picture, and those of a panel inside their panel, whatever the picture's shape.
+/// Every number and name that is drawn lies inside the picture, those of a panel inside their panel, and none over another, whatever the
+/// picture's shape.
 #[test]
-fn no_word_is_cut_off() {
+fn no_word_is_cut_off_or_written_over_another() {
     let (case, trajectory) = torus();
     for [wide, high] in [[1280, 720], [1080, 1920], [1080, 1080], [1024, 768]] {
         let mut case = case.clone();
         (case.film.width, case.film.height) = (wide, high);
         let stage = stage(&case, &trajectory);
-        // Pixels of a picture as wide as this one with sides 16:9, the smallest that fits.
-        let corner = 8.0 * (wide as f32 / 1280.0);
+        // A picture counts as 1280 pixels wide, an upright one as 760, a square one as 1130 high.
+        let corner = 8.0
+            * (wide as f32 / if high >= wide { 760.0 } else { 1280.0 })
+                .min(high as f32 / if high >= wide { 1130.0 } else { 720.0 });
         for index in (0..=600).step_by(60) {
             let [mut min, mut max] = [Vec2::ZERO, Vec2::new(wide as f32, high as f32)];
             let mut panels = 0;
-            for item in &stage.frame(index).overlay {
+            let mut words: Vec<(Vec2, Vec2, &str)> = vec![];
+            let frame = stage.frame(index);
+            for item in &frame.overlay {
                 if let OverlayItem::Box { area, corner_radius, .. } = item
                     && (corner_radius - corner).abs() < 1e-3
                 {
@@ -322,8 +327,14 @@ fn no_word_is_cut_off() {
                 let inside =
                     left >= min.x && left + width <= max.x && position.y - size >= min.y && position.y <= max.y;
                 assert!(inside, "{wide}x{high}, frame {index}: {text:?} at {left}..{}, {}", left + width, position.y);
+                // Letters reach some 0.75 of their size above the line.
+                words.push((Vec2::new(left, position.y - 0.75 * size), Vec2::new(left + width, position.y), text));
             }
             assert_eq!(panels, 6);
+            for (i, (min, max, word)) in words.iter().enumerate() {
+                let over = words[..i].iter().find(|other| min.cmplt(other.1).all() && other.0.cmplt(*max).all());
+                assert_eq!(over, None, "{wide}x{high}, frame {index}: {word:?} is written over it");
+            }
         }
     }
 }

@@ -66,8 +66,8 @@ pub(super) fn comparison(report: &Report, steps: u32) -> Grid {
     let row = |configuration: Configuration| {
         let cell = |(_, scenario, variant, quantity): &(&str, &str, &str, &str)| {
             // Averaging changes nothing where nothing rubs, and is not run there.
-            let stand_in = *scenario == "linear_oscillator" && configuration == Configuration::DEFAULT;
-            let tried = if stand_in { Configuration::RECIPE } else { configuration };
+            let stand_in = *scenario == "linear_oscillator" && configuration == Configuration::AVERAGED_FRICTION;
+            let tried = if stand_in { Configuration::SAMPLED_FRICTION } else { configuration };
             let found = report.rows.iter().find(|row| {
                 row.configuration == tried
                     && row.scenario == *scenario

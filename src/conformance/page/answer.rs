@@ -31,7 +31,7 @@ fn best(report: &Report) -> Option<(&Advice, u32)> {
     // No timing decides, so that the sentence repeats.
     known.min_by_key(|(advice, steps)| {
         let motion = advice.motion.enough().unwrap_or(u32::MAX);
-        let default_first = advice.configuration != Configuration::DEFAULT;
+        let default_first = advice.configuration != Configuration::AVERAGED_FRICTION;
         (*steps, motion, default_first, advice.configuration.substeps, advice.configuration)
     })
 }
@@ -112,13 +112,13 @@ pub(super) const HOW_TO_READ: [&str; 5] = [
      motion × (√(t/h) + t); where the prediction is the exact solution it is the error bound of the scheme. The column “how judged” says which, row by row.",
     "Physics: the number is what the equations of motion say, to 1 % of the quantity, or of the size of the motion where the exact value is zero. Wrong physics that \
      is predicted is a property of the configuration; choose another one.",
-    "Order: errors over a ladder of steps. The second-order recipe must show order 2 within 0.1 (0.2 where single events scatter) down to \
+    "Order: errors over a ladder of steps. The second-order scheme must show order 2 within 0.1 (0.2 where single events scatter) down to \
      the floor of rounding; other configurations the order of their difference equation over the same steps.",
     "Not run, or not resolved: nobody computed it in this run, nothing predicts the number, its prediction is looser than what counts as right, or too few errors lie \
      above the floor to show an order. It counts neither as passed nor as failed; the reason is in the row.",
 ];
 
-/// Why the neighbours of the recipe will not do.
+/// Why the neighbours of the second-order scheme will not do.
 pub(super) const WHY: [&str; 4] = [
     "One substep is what matters for amplitude, frequency and Hopf point. A force that is evaluated once a step stands still while the engine moves the bodies \
      substep by substep; that pumps energy in, in proportion to the step. With one substep nothing is pumped in, whatever is done about velocities, and every \
@@ -158,7 +158,12 @@ pub(super) const FAULTS: [[&str; 4]; 5] = [
         "h a/2 in the damper's velocity",
         "predict the velocity",
     ],
-    ["what remains in the recipe", "the recipe: leapfrog, friction by increments", "of order h²", "smaller steps"],
+    [
+        "what remains in the second-order scheme",
+        "the scheme: leapfrog, friction by increments",
+        "of order h²",
+        "smaller steps",
+    ],
 ];
 
 /// The words about multibody joints.
@@ -166,11 +171,11 @@ pub(super) const MULTIBODY: &str = "Multibody joints are second order too, if th
      (RigidBody::linvel) is the one before the last substep; a force law that reads it sees every velocity one substep late and becomes first order \
      (measured over ten periods at 4096 steps: 5.4e-3 instead of 5.5e-6). All rows here read Multibody::generalized_velocity, which is current.";
 
-/// The words about the recipe.
-pub(super) const RECIPE: &str = "The second-order recipe: one substep (num_solver_iterations = 1); forces evaluated at the positions x_n; velocities started half a step back, \
+/// The words about the second-order scheme.
+pub(super) const SCHEME: &str = "The second-order scheme: one substep (num_solver_iterations = 1); forces evaluated at the positions x_n; velocities started half a step back, \
      v(-1/2) = v(0) - (h/2) a(0); and the velocity in damping laws predicted to the same instant, v(n) = v(n-1/2) + (h/2) a(n-1). It is what \
      “half-step start, predicted velocity” means here; “friction averaged”, the default, takes the mean of the friction force from t_n - h/2 to t_n + h/2 along the elongation w s + a(n-1) s²/2, w the engine's velocity, from the slider force carried to t_n - h/2, \
-     which is then carried on with a(n) in place of a(n-1); “friction at the step” takes its value at x_n (where nothing rubs both are the same, and rows say “friction at the step”); “late velocity” leaves the prediction out, “face value” takes the engine's \
+     which is then carried on with a(n) in place of a(n-1); “friction sampled” takes its value at x_n (where nothing rubs both are the same, and rows say “friction sampled”); “late velocity” leaves the prediction out, “face value” takes the engine's \
      velocity for the velocity, as a plain user does.";
 
 /// Formulae of numerical damping and frequency shift.

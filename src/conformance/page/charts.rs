@@ -106,9 +106,9 @@ fn only_rounding(rows: &[&Row], configuration: Configuration) -> bool {
     of.all(|row| row.deviation.zip(row.floor).is_some_and(|(error, floor)| error <= ABOVE_FLOOR * floor))
 }
 
-/// Of the recipe; none if it lies far below all errors, which it would only flatten.
+/// Of the second-order scheme; none if it lies far below all errors, which it would only flatten.
 fn floor(rows: &[&Row], precision: Precision, curves: &[Curve]) -> Option<Vec<(f64, f64)>> {
-    let floor = points(rows, Configuration { precision, ..Configuration::RECIPE }, |row| row.floor);
+    let floor = points(rows, Configuration { precision, ..Configuration::SAMPLED_FRICTION }, |row| row.floor);
     let lowest = curves.iter().flat_map(|curve| &curve.points).map(|point| point.1).fold(f64::INFINITY, f64::min);
     (floor.len() > 1 && floor.iter().any(|point| point.1 > NEAR_THE_FLOOR * lowest)).then_some(floor)
 }

@@ -26,7 +26,7 @@ pub(super) fn figure(report: &Report) -> Option<Figure> {
         panel = panel.series(Series::new(label, points, Style::Line, Tint::Grey));
     }
     for (configuration, words, style, tint) in [
-        (Configuration::DEFAULT, "second-order recipe, 256 steps per period", Style::Rings, Tint::Blue),
+        (Configuration::AVERAGED_FRICTION, "friction averaged, 256 steps per period", Style::Rings, Tint::Blue),
         (DEFAULTS, "Rapier's defaults, dt = 1/60, 4 substeps, in f64", Style::Crosses, Tint::Vermillion),
     ] {
         let found = [LARGEST, SMALLEST].map(|quantity| points(&rows, quantity, Some(configuration), |row| row.found));

@@ -1,7 +1,7 @@
 //! `report.html`: one file with everything in it.
 
 use super::advice::{self, FEWEST_CAPTION};
-use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, STEPS, WHY, answer, steps_for_all};
+use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, SCHEME, STEPS, WHY, answer, steps_for_all};
 use super::charts::{self, Chart};
 use super::diagram;
 use super::markdown::{provenance, summary};
@@ -41,7 +41,7 @@ pub fn html(report: &Report, changes: Option<&Changes>) -> Result<String, Confor
         (table(&faults()))
         h2 #reading { "How to read this" }
         ul { @for line in HOW_TO_READ { li { (line) } } }
-        p { (RECIPE) } p { (MULTIBODY) }
+        p { (SCHEME) } p { (MULTIBODY) }
         (damping)
         @for section in sections { (section) }
         h2 #provenance { "Where and with what" }

@@ -1,7 +1,7 @@
 //! `report.md`: the answer, the tables, the failures; charts are in the page.
 
 use super::advice::{self, FEWEST_CAPTION};
-use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, RECIPE, STEPS, WHY, answer, steps_for_all};
+use super::answer::{DERIVATION, FAULTS, FORMULA, HOW_TO_READ, MULTIBODY, SCHEME, STEPS, WHY, answer, steps_for_all};
 use super::tables::{self, Grid};
 use crate::conformance::{Changes, Report, Row};
 use std::fmt::Write;
@@ -40,7 +40,7 @@ pub fn markdown(report: &Report, changes: Option<&Changes>) -> String {
     }
     say("## How to read this");
     HOW_TO_READ.iter().for_each(|line| say(line));
-    say(RECIPE);
+    say(SCHEME);
     say(MULTIBODY);
     say("## Numerical damping at dt = 1/60");
     say(FORMULA);

@@ -70,7 +70,7 @@ impl Scenario for Chaos {
     fn cases(&self, depth: Depth) -> Vec<Case> {
         let mut cases = friction_cases(ID, "", depth);
         for case in &mut cases {
-            let quick = [Configuration::RECIPE, Configuration::ENGINE_DEFAULTS].contains(&case.configuration);
+            let quick = [Configuration::SAMPLED_FRICTION, Configuration::ENGINE_DEFAULTS].contains(&case.configuration);
             case.depth = if quick { Depth::Quick } else { Depth::Full };
             let notable = is_notable(case.configuration);
             case.steps = match depth {

@@ -49,7 +49,7 @@ impl Scenario for Hysteresis {
         let of = |precision| Case {
             scenario: ID.to_owned(),
             variant: String::new(),
-            configuration: Configuration { precision, ..Configuration::RECIPE },
+            configuration: Configuration { precision, ..Configuration::SAMPLED_FRICTION },
             steps: ladder(depth).into_iter().map(|steps| steps / 4 * 4 + 2).collect(),
             depth: Depth::Quick,
         };

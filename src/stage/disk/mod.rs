@@ -12,7 +12,8 @@ mod words;
 pub use colours::DeflectionColours;
 pub use motion::{DiskInstant, DiskMotion};
 
-use super::layout::Layout;
+use super::Solution;
+use super::layout::{Layout, Shown};
 use super::palette::Palette;
 use crate::render::{Camera, DrawList, Light};
 use crate::scene::{CameraMove, Case, Direction, View};
@@ -21,9 +22,11 @@ use model::DiskModel;
 use panels::{Frame, Panels};
 use words::Words;
 
-/// Middle of the disk, half of the width and height that show all of it with the words beside it, and the camera's distance; drawing units.
+/// Middle of the disk, radius and half the height of a ring that holds the tips of the blades, how far words reach beside it, and the
+/// camera's distance; drawing units.
 const MIDDLE: Vec3 = Vec3::new(0.0, 0.85, 0.0);
-const EXTENT: [f32; 2] = [3.75, 1.62];
+const RING: [f32; 2] = [2.55, 0.3];
+const BESIDE: f32 = 3.3;
 const DISTANCE: f32 = 10.0;
 /// From where a disk is seen unless its scene says.
 const VIEW: View = View { azimuth: -12.0, elevation: 36.0, zoom: 1.0, shift: [0.0; 3] };
@@ -33,6 +36,17 @@ const USUAL_SPEED: f64 = 8.0;
 /// Sun on a disk, as a part of that on the rig: colours stand for numbers here and may not be bleached.
 const SUN: f32 = 0.5;
 
+/// What a camera shows: points round the ring, and the words beside it.
+fn shown() -> Shown {
+    let [radius, half] = RING;
+    let around = (0..24).flat_map(|n| {
+        let (sin, cos) = (std::f32::consts::TAU * n as f32 / 24.0).sin_cos();
+        [-half, half].map(|y| MIDDLE + Vec3::new(radius * cos, y, radius * sin))
+    });
+    let words = [-BESIDE, BESIDE].map(|x| MIDDLE + Vec3::new(x, 0.0, 0.0));
+    Shown { points: around.chain(words).collect(), middle: MIDDLE, distance: DISTANCE }
+}
+
 /// One film of a disk.
 #[derive(Debug, Clone)]
 pub struct DiskStage {
@@ -41,6 +55,7 @@ pub struct DiskStage {
     /// Mean period of the motion.
     period: f64,
     exact: Option<DiskMotion>,
+    solution: Option<Solution>,
     palette: Palette,
     layout: Layout,
     model: DiskModel,
@@ -62,7 +77,13 @@ impl DiskStage {
         let model = DiskModel::new(&disk, colours, case.direction.magnification as f32, palette);
         let words = Words::new(&disk, &motion, &model, layout.scale, palette);
         let period = std::f64::consts::TAU / motion.angular_frequency();
-        Some(Self { period, exact, palette, layout, model, panels, words, case, motion })
+        Some(Self { period, exact, solution: None, palette, layout, model, panels, words, case, motion })
+    }
+
+    /// Says what computed the motion.
+    #[must_use]
+    pub fn computed_by(self, solution: Solution) -> Self {
+        Self { solution: Some(solution), ..self }
     }
 
     /// Frames that show the motion from its start to its end; fewer than the scene asks for where the motion diverged.
@@ -119,7 +140,8 @@ impl DiskStage {
         let apart = self.exact.as_ref().filter(|exact| time <= exact.end()).map(|exact| self.distance(&now, exact));
         // Over a period: how many slip at one moment flickers too fast to be read, and the contacts in the scene show it.
         let slipping = self.motion.slipped(time - self.period, time).into_iter().filter(|slipped| *slipped).count();
-        self.words.draw_status(&now, slipping, apart, &self.layout, &mut overlay);
+        let beside = (apart, self.solution.as_ref());
+        self.words.draw_status(&now, slipping, beside, &self.layout, &mut overlay);
         self.panels.draw(&self.motion, &now, &mut overlay);
         let light = self.palette.light();
         DrawList {
@@ -152,6 +174,6 @@ impl DiskStage {
         let view = if *camera == CameraMove::default() { VIEW } else { camera.view(seconds, length) };
         let shift = Vec3::from(view.shift.map(|shift| shift as f32));
         let direction = [view.azimuth, view.elevation].map(|angle| angle.to_radians() as f32);
-        self.layout.camera(MIDDLE + shift, direction, DISTANCE, EXTENT.map(|half| half / view.zoom as f32))
+        self.layout.camera(&shown(), direction, view.zoom as f32, shift)
     }
 }

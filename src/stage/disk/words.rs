@@ -5,6 +5,7 @@ use super::model::{DiskModel, HUB_HALF};
 use super::motion::{DiskInstant, DiskMotion};
 use crate::model::{BladedDisk, Topology};
 use crate::render::{Anchor, Camera, Colour, OverlayItem, Rectangle, Stroke};
+use crate::stage::Solution;
 use crate::stage::labels;
 use crate::stage::layout::Layout;
 use crate::stage::numbers;
@@ -103,7 +104,7 @@ impl Words {
         &self,
         now: &DiskInstant,
         slipping: usize,
-        apart: Option<f64>,
+        (apart, solution): (Option<f64>, Option<&Solution>),
         layout: &Layout,
         out: &mut Vec<OverlayItem>,
     ) {
@@ -136,14 +137,17 @@ impl Words {
             bold: true,
             text: format!("t = {:.1}", now.time),
         });
+        if let Some(solution) = solution {
+            labels::draw_solution(solution, palette, origin - Vec2::new(0.0, labels::ABOVE[0]) * s, s, out);
+        }
         let lower = Vec2::new(right, origin.y + 22.0 * s);
         out.push(self.text(lower, Anchor::Right, 14.0, palette.faint_text, self.parameters.clone()));
         let upper = Vec2::new(right, origin.y + 4.0 * s);
         out.push(self.text(upper, Anchor::Right, 12.0, palette.faint_text, self.magnified.clone()));
         if let Some(apart) = apart {
-            let place = Vec2::new(origin.x, origin.y - 12.0 * s);
+            let place = origin - Vec2::new(0.0, labels::ABOVE[1]) * s;
             let text = format!("exact solution {} away", numbers::with_power(apart));
-            out.push(self.text(place, Anchor::Left, 12.0, palette.faint_text, text));
+            out.push(self.text(place, Anchor::Left, 13.0, palette.faint_text, text));
         }
         self.draw_key(layout, out);
     }

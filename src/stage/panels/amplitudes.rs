@@ -1,35 +1,45 @@
-//! The plane of the slow amplitudes: a limit cycle is a point in it, a torus a closed loop, chaos a tangle.
+//! The plane of the slow amplitudes: a limit cycle is a point in it, a torus a closed loop, chaos a tangle. It runs one period late: the
+//! smooth amplitude between two turning points takes the next ones as well.
 
-use super::Frame;
+use super::{FADES, Frame, Quantity};
 use crate::model::Scales;
 use crate::render::{OverlayItem, Rectangle};
 use crate::stage::envelope::Envelope;
 use crate::stage::motion::Instant;
 use crate::stage::plot::{Axis, Plot};
+use std::f64::consts::TAU;
 
+/// A period of the sticking in-phase mode: two turning points follow in it.
+const DELAY: f64 = TAU;
 /// Length of the bright part of the trail, non-dimensional time units: slow amplitudes take some 80 for a round.
-const BRIGHT: f64 = 40.0;
+const BRIGHT: f64 = 60.0;
+/// Distance of points along the trail, and the most points of a film's trail.
+const STEP: f64 = 0.4;
+const MOST: f64 = 4000.0;
 
 #[derive(Debug, Clone)]
 pub(super) struct Amplitudes {
     plot: Plot,
-    scales: Scales,
     envelopes: [Envelope; 2],
+    /// The whole curve: points at `start + n step`.
+    curve: Vec<(f64, f64)>,
+    start: f64,
+    step: f64,
+    scales: Scales,
 }
 
 impl Amplitudes {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let envelopes = [0, 1].map(|mass| Envelope::of_mass(frame.motion, mass));
         let [x, y] = [0, 1].map(|i| Axis::covering(0.0, envelopes[i].largest().max(0.5) * frame.scales.length));
-        let labels = [frame.label("a₁", "m"), frame.label("a₂", "m")];
-        Self { plot: frame.plot(place, "Slow amplitudes", labels, [x, y]), scales: frame.scales, envelopes }
-    }
-
-    /// The latest time up to `time` at which both amplitudes are known, and the earliest.
-    fn known(&self, time: f64) -> Option<[f64; 2]> {
-        let [a, b] = [self.envelopes[0].known(time)?, self.envelopes[1].known(time)?];
-        let [first, last] = [a[0].max(b[0]), a[1].min(b[1])];
-        (first <= last).then_some([first, last])
+        let labels = [Quantity("a₁", "m"), Quantity("a₂", "m")];
+        let plot = frame.plot(place, "Slow amplitudes", labels, [x, y]);
+        let start = envelopes[0].start().zip(envelopes[1].start()).map_or(f64::INFINITY, |(a, b)| a.max(b));
+        let length = (frame.motion.end() - DELAY - start).max(0.0);
+        let step = STEP.max(length / MOST);
+        let mut panel = Self { plot, envelopes, curve: Vec::new(), start, step, scales: frame.scales };
+        panel.curve = (0..=(length / step) as u32).map(|n| panel.point(start + f64::from(n) * step)).collect();
+        panel
     }
 
     fn point(&self, time: f64) -> (f64, f64) {
@@ -37,17 +47,27 @@ impl Amplitudes {
         (a1, a2)
     }
 
+    /// The curve from one time to another.
+    fn between(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
+        let number = |time: f64| ((time - self.start) / self.step).max(0.0);
+        let inner = number(from).ceil() as usize..(number(to).ceil() as usize).min(self.curve.len());
+        let points = self.curve.get(inner).unwrap_or_default().iter().copied();
+        std::iter::once(self.point(from)).chain(points).chain([self.point(to)])
+    }
+
     pub fn draw(&self, now: &Instant, out: &mut Vec<OverlayItem>) {
         self.plot.draw_frame(out);
-        let Some([first, last]) = self.known(now.time) else { return };
-        let corners = |from: f64| {
-            let inner = self.envelopes[0].turns(from, last).map(|turn| turn[0]);
-            std::iter::once(from).chain(inner).chain([last]).map(|time| self.point(time))
-        };
+        let time = now.time - DELAY;
+        if time < self.start {
+            return;
+        }
         let colour = self.plot.palette.masses[0];
-        self.plot.draw_line(corners(first), 1.2, colour.with_alpha(0.35), out);
-        self.plot.draw_line(corners((last - BRIGHT).max(first)), 1.8, colour, out);
-        let (x, y) = self.point(last);
+        self.plot.draw_line(self.between(self.start, time), 1.2, colour.with_alpha(0.3), out);
+        for lines_left in (1..=FADES).rev() {
+            let from = (time - BRIGHT * f64::from(lines_left) / f64::from(FADES)).max(self.start);
+            self.plot.draw_line(self.between(from, time), 1.8, colour.with_alpha(1.0 / lines_left as f32), out);
+        }
+        let (x, y) = self.point(time);
         self.plot.draw_marker(x, y, colour, out);
     }
 }

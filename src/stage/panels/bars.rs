@@ -1,5 +1,6 @@
-//! A ledger as a panel of horizontal bars about zero, each with its label and its number.
+//! A ledger as a panel of horizontal bars about zero, each with its label and its number, on a scale with marks.
 
+use super::full_scale::marks;
 use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke};
 use crate::stage::numbers;
 use crate::stage::palette::Palette;
@@ -8,7 +9,7 @@ use glam::Vec2;
 /// Left ends of labels and bars and right end of the numbers, and first row, pixels of a 720 lines high picture.
 const LABEL: f32 = 12.0;
 const BARS: f32 = 100.0;
-const NUMBERS: f32 = 72.0;
+const NUMBERS: f32 = 84.0;
 const FIRST_ROW: f32 = 46.0;
 
 /// One row.
@@ -28,12 +29,13 @@ pub struct Bars {
     pub scale: f32,
     pub palette: Palette,
     pub title: String,
-    /// Value of the longest bar.
-    pub largest: f64,
+    /// What a value of 1 is written as.
+    pub unit: f64,
 }
 
 impl Bars {
-    pub fn draw(&self, bars: Vec<Bar>, out: &mut Vec<OverlayItem>) {
+    /// A bar as long as there is room has the value `full`.
+    pub fn draw(&self, bars: Vec<Bar>, full: f64, out: &mut Vec<OverlayItem>) {
         let (s, palette) = (self.scale, &self.palette);
         out.push(OverlayItem::Box {
             area: self.place,
@@ -41,28 +43,16 @@ impl Bars {
             fill: palette.panel,
             stroke: Some(Stroke { width: s, colour: palette.panel_edge }),
         });
-        let text = |position, anchor, size: f32, colour, bold, text| OverlayItem::Text {
-            position,
-            anchor,
-            size: size * s,
-            colour,
-            bold,
-            text,
-        };
+        let text = |position, anchor, size, colour, bold, text| self.text(position, anchor, size, colour, bold, text);
         let corner = self.place.min + Vec2::new(LABEL, 19.0) * s;
         out.push(text(corner, Anchor::Left, 13.0, palette.text, true, self.title.clone()));
         let row = (self.place.max.y - self.place.min.y - (FIRST_ROW - 4.0) * s) / bars.len().max(1) as f32;
         let (left, right) = (self.place.min.x + BARS * s, self.place.max.x - NUMBERS * s);
         let zero = 0.5 * (left + right);
-        let foot = self.place.max.y - 10.0 * s;
-        out.push(OverlayItem::Line {
-            points: vec![Vec2::new(zero, self.place.min.y + 32.0 * s), Vec2::new(zero, foot)],
-            stroke: Stroke { width: s, colour: palette.zero_line },
-            clip: None,
-        });
+        self.draw_marks(zero, 0.5 * (right - left), full, out);
         for (number, bar) in bars.into_iter().enumerate() {
             let middle = self.place.min.y + FIRST_ROW * s + row * number as f32;
-            let end = zero + 0.5 * (right - left) * (bar.value / self.largest).clamp(-1.0, 1.0) as f32;
+            let end = zero + 0.5 * (right - left) * (bar.value / full).clamp(-1.0, 1.0) as f32;
             let half = (0.28 * row).min(9.0 * s);
             out.push(OverlayItem::Box {
                 area: Rectangle {
@@ -80,6 +70,42 @@ impl Bars {
             out.push(text(place, Anchor::Right, 12.0, palette.faint_text, false, bar.number));
         }
     }
+
+    /// Zero and a round value or two at both sides of it, where the longest bar is `half` long.
+    fn draw_marks(&self, zero: f32, half: f32, full: f64, out: &mut Vec<OverlayItem>) {
+        let (s, palette) = (self.scale, &self.palette);
+        let [head, foot] = [self.place.min.y + 36.0 * s, self.place.max.y - 10.0 * s];
+        let mut line = |x: f32, colour| {
+            let points = vec![Vec2::new(x, head), Vec2::new(x, foot)];
+            out.push(OverlayItem::Line { points, stroke: Stroke { width: s, colour }, clip: None });
+        };
+        let marks = marks(full * self.unit);
+        let shift = |value: f64| half * (value / (full * self.unit)) as f32;
+        let both = || marks.iter().flat_map(|mark| [(-mark.value, mark), (mark.value, mark)]);
+        for (value, mark) in both() {
+            line(zero + shift(value), palette.zero_line.with_alpha(0.6 * mark.line));
+        }
+        line(zero, palette.zero_line);
+        for (value, mark) in both().filter(|(_, mark)| mark.number > 0.0) {
+            let word = if (1e-3..1e4).contains(&value.abs()) {
+                format!("{value}").replace('-', "−")
+            } else {
+                numbers::with_power(value)
+            };
+            let (place, colour) =
+                (Vec2::new(zero + shift(value), head - 3.0 * s), palette.faint_text.with_alpha(mark.number));
+            out.push(self.text(place, Anchor::Centre, 10.0, colour, false, word));
+        }
+    }
+
+    fn text(&self, position: Vec2, anchor: Anchor, size: f32, colour: Colour, bold: bool, text: String) -> OverlayItem {
+        OverlayItem::Text { position, anchor, size: size * self.scale, colour, bold, text }
+    }
+}
+
+/// The largest absolute value.
+pub fn largest(bars: &[Bar]) -> f64 {
+    bars.iter().map(|bar| bar.value.abs()).fold(0.0, f64::max)
 }
 
 /// With its sign; three digits after the point, or two and the power of ten.

@@ -6,7 +6,8 @@
 //! ```
 
 use super::Frame;
-use super::bars::{Bar, Bars, written};
+use super::bars::{Bar, Bars, largest, written};
+use super::full_scale::FullScale;
 use crate::model::{EnergyLedger, Scales};
 use crate::render::{OverlayItem, Rectangle};
 use crate::stage::motion::{Instant, Motion};
@@ -14,12 +15,11 @@ use std::f64::consts::TAU;
 
 /// A period of the sticking in-phase mode, non-dimensional.
 const PERIOD: f64 = TAU;
-/// Instants looked at for the largest bar.
-const LOOKED_AT: u32 = 400;
 
 #[derive(Debug, Clone)]
 pub(super) struct Energy {
     bars: Bars,
+    full: FullScale,
     scales: Scales,
     is_driven: bool,
 }
@@ -41,10 +41,9 @@ impl Energy {
         let Frame { motion, scales, scale, palette } = *frame;
         let unit = if scales == Scales::UNITY { "" } else { " [J]" };
         let title = format!("Energy in the last period{unit}");
-        let mut panel = Self { bars: Bars { place, scale, palette, title, largest: 0.0 }, scales, is_driven };
-        let times = (0..=LOOKED_AT).map(|n| motion.end() * f64::from(n) / f64::from(LOOKED_AT));
-        let largest = times.flat_map(|time| panel.entries(motion, &motion.at(time))).map(|bar| bar.value.abs());
-        panel.bars.largest = largest.fold(1e-9, f64::max);
+        let bars = Bars { place, scale, palette, title, unit: scales.energy };
+        let mut panel = Self { bars, full: FullScale::default(), scales, is_driven };
+        panel.full = FullScale::new(motion.end(), |time| largest(&panel.entries(motion, &motion.at(time))));
         panel
     }
 
@@ -68,6 +67,6 @@ impl Energy {
     }
 
     pub fn draw(&self, motion: &Motion, now: &Instant, out: &mut Vec<OverlayItem>) {
-        self.bars.draw(self.entries(motion, now), out);
+        self.bars.draw(self.entries(motion, now), self.full.at(now.time), out);
     }
 }

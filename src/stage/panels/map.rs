@@ -1,7 +1,7 @@
 //! Where the scene stands in the amplitude-damping diagram: amplitude of mass 1 over the self-excitation -xi1, with limit cycles, the
 //! range of amplitudes of the steady motions, and where they diverge.
 
-use super::Frame;
+use super::{Frame, Quantity};
 use crate::model::Scales;
 use crate::render::{Anchor, OverlayItem, Rectangle};
 use crate::scene::Excitation;
@@ -42,7 +42,7 @@ impl Map {
         let values = map.motions.iter().map(|motion| -motion.0).chain(edge);
         let strongest = values.fold(-1.05 * xi1.strongest(), f64::max).max(0.02);
         let axes = [Axis::exactly((-xi1.start).min(0.0), strongest), Axis::exactly(0.0, HIGHEST * frame.scales.length)];
-        let labels = ["−ξ₁".to_owned(), frame.label("a₁", "m")];
+        let labels = [Quantity("−ξ₁", ""), Quantity("a₁", "m")];
         let plot = frame.plot(place, "Amplitude over self-excitation", labels, axes);
         Self { plot, map, scales: frame.scales, xi1, envelope: Envelope::of_mass(frame.motion, 0) }
     }
@@ -110,8 +110,7 @@ impl Map {
         let x = -self.xi1.at(now.time);
         plot.draw_line([(x, plot.y.min), (x, plot.y.max)].into_iter(), 1.2, colour.with_alpha(0.6), out);
         self.draw_legend(out);
-        if let Some([_, last]) = self.envelope.known(now.time) {
-            let amplitude = self.envelope.at(last) * self.scales.length;
+        if let Some(amplitude) = self.envelope.last(now.time).map(|amplitude| amplitude * self.scales.length) {
             if amplitude > plot.y.max {
                 plot.draw_beyond(x, colour, out);
             } else {

@@ -3,6 +3,7 @@
 mod amplitudes;
 pub(super) mod bars;
 pub(super) mod energy;
+pub(super) mod full_scale;
 mod map;
 mod planes;
 mod series;
@@ -56,9 +57,11 @@ struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    fn plot(&self, panel: Rectangle, title: &str, [x_label, y_label]: [String; 2], [x, y]: [Axis; 2]) -> Plot {
+    /// Axes are quantities with their SI units, which are shown where the scene is in SI.
+    fn plot(&self, panel: Rectangle, title: &str, quantities: [Quantity; 2], axes: [Axis; 2]) -> Plot {
         let is_small = panel.max.x - panel.min.x < SMALL * self.scale;
-        let [x, y] = if is_small { [x.sparse(), y.sparse()] } else { [x, y] };
+        let axes = axes.map(|axis| if is_small { axis.sparse() } else { axis });
+        let [(x_label, x), (y_label, y)] = [0, 1].map(|i| self.labelled(quantities[i], axes[i]));
         Plot {
             panel,
             scale: self.scale,
@@ -72,10 +75,26 @@ impl Frame<'_> {
         }
     }
 
-    /// `name` alone, or with its unit where the scene is in SI.
-    fn label(&self, name: &str, unit: &str) -> String {
-        if self.scales == Scales::UNITY { name.to_owned() } else { format!("{name} [{unit}]") }
+    /// Name and unit of an axis; its numbers are written in a multiple of the unit that keeps them short.
+    fn labelled(&self, Quantity(name, unit): Quantity, axis: Axis) -> (String, Axis) {
+        if self.scales == Scales::UNITY || unit.is_empty() {
+            return (name.to_owned(), axis);
+        }
+        let (prefix, multiple) = prefix(axis.min.abs().max(axis.max.abs()));
+        (format!("{name} [{prefix}{unit}]"), Axis { multiple, ..axis })
     }
+}
+
+/// Name of a quantity, and its SI unit; none for a pure number.
+#[derive(Debug, Clone, Copy)]
+struct Quantity(&'static str, &'static str);
+
+/// SI prefix and its factor for an axis that reaches to `largest`.
+fn prefix(largest: f64) -> (&'static str, f64) {
+    const PREFIXES: [(&str, f64); 7] =
+        [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
+    let fits = |(_, factor): &&(&str, f64)| largest >= 0.2 * factor;
+    PREFIXES.iter().find(fits).copied().unwrap_or(PREFIXES[6])
 }
 
 impl Panels {
@@ -117,5 +136,17 @@ impl Panels {
                 Drawn::Map(panel) => panel.draw(now, out),
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_an_axis_are_short_in_the_multiple_of_its_unit() {
+        let chosen = [4e-10, 8e-4, 0.25, 3.0, 12.0, 1.5e3, 2e12].map(prefix);
+        let expected = [("n", 1e-9), ("m", 1e-3), ("", 1.0), ("", 1.0), ("", 1.0), ("k", 1e3), ("G", 1e9)];
+        assert_eq!(chosen, expected);
     }
 }

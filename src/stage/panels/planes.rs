@@ -1,6 +1,6 @@
 //! Two planes with a fading trail: hysteresis of the Jenkins element, and phase plane of mass 1 with the points of a Poincare section.
 
-use super::{FADES, Frame, MOST_POINTS, TRAIL};
+use super::{FADES, Frame, MOST_POINTS, Quantity, TRAIL};
 use crate::model::Scales;
 use crate::render::{Anchor, Colour, OverlayItem, Rectangle};
 use crate::stage::motion::{Instant, Motion};
@@ -27,7 +27,7 @@ fn position_axis(frame: &Frame<'_>) -> Axis {
 impl Hysteresis {
     pub fn new(frame: &Frame<'_>, place: Rectangle) -> Self {
         let axes = [position_axis(frame), Axis::symmetric(frame.scales.slip_force)];
-        let labels = [frame.label("x₁", "m"), frame.label("f", "N")];
+        let labels = [Quantity("x₁", "m"), Quantity("f", "N")];
         Self { plot: frame.plot(place, "Hysteresis of the Jenkins element", labels, axes), scales: frame.scales }
     }
 
@@ -101,7 +101,7 @@ impl PhasePlane {
         let s = frame.scales;
         let speed = frame.motion.largest(|i| i.velocities[0]).max(1.0);
         let axes = [position_axis(frame), Axis::symmetric(speed * s.velocity)];
-        let labels = [frame.label("x₁", "m"), frame.label("v₁", "m/s")];
+        let labels = [Quantity("x₁", "m"), Quantity("v₁", "m/s")];
         let section = section(frame.motion);
         let title =
             if section.is_empty() { "Phase plane of mass 1" } else { "Phase plane of mass 1, points at v₂ = 0" };

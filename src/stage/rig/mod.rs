@@ -9,6 +9,7 @@ mod excitation;
 mod jenkins;
 mod links;
 
+use super::layout::{Shown, corners};
 use super::motion::{Body, Instant, Motion};
 use super::palette::Palette;
 use crate::render::shapes::block;
@@ -38,6 +39,28 @@ const DAMPER_LINE: [f32; 2] = [HEIGHT - 0.13, 0.47];
 /// Largest magnified displacement, and largest change of the carriages' distance: more would drive the piston out of its barrel.
 const ROOM: f32 = 0.6;
 const STROKE: f32 = 0.44;
+
+/// Half the width and height of the end plates with their feet, and highest tip of an arrow.
+const PLATE_CORNER: [f32; 2] = [0.55, 1.07];
+const ARROW_TIP: f32 = 1.5;
+/// The camera's distance.
+const DISTANCE: f32 = 10.3;
+
+/// What a camera shows: base plate, end plates, and the arrows over the carriages.
+pub fn shown() -> Shown {
+    let [left, right] = PLATES;
+    let box_of = |[x0, x1]: [f32; 2], height: f32, [z0, z1]: [f32; 2]| {
+        corners(Vec3::new(x0, 0.0, z0), Vec3::new(x1, height, z1))
+    };
+    let ends = [left - 0.48, right + 0.48];
+    let [depth, top] = PLATE_CORNER;
+    let points = box_of(ends, bench::PLATE_TOP, [-0.8, 1.08]).chain(box_of(ends, top, [-depth, depth])).chain(box_of(
+        [REST[0] - ROOM, REST[1] + ROOM],
+        ARROW_TIP,
+        [0.0, 0.0],
+    ));
+    Shown { points: points.collect(), middle: Vec3::new(0.5 * (left + right), 0.5, 0.1), distance: DISTANCE }
+}
 
 /// The parts of the rig that keep their shape, built once a film.
 #[derive(Debug, Clone)]
@@ -143,10 +166,11 @@ impl RigModel {
         })
     }
 
-    /// Places in the world that words are written at.
+    /// Places in the world that words are written at; those of the carriages on their front or back.
     #[must_use]
-    pub fn anchors(&self, now: &Instant) -> Anchors {
-        let front = |i: usize| self.pose(i, &now.bodies[i]).transform_point3(Vec3::new(0.0, 0.19, HALF));
+    pub fn anchors(&self, now: &Instant, from_front: bool) -> Anchors {
+        let depth = if from_front { HALF } else { -HALF };
+        let front = |i: usize| self.pose(i, &now.bodies[i]).transform_point3(Vec3::new(0.0, 0.19, depth));
         let slider = self.jenkins.place(now);
         Anchors {
             masses: [front(0), front(1)],

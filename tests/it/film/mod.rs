@@ -1,9 +1,10 @@
-//! Films of a fake renderer whose frames say which one they are.
+//! Films whose frames say which one they are, of a fake renderer and of the built-in one.
 
 mod browser;
 mod fake;
 mod ffmpeg;
-mod mp4;
+mod marked;
+pub mod mp4;
 mod resume;
 mod sequence;
-mod video;
+pub mod video;

@@ -163,6 +163,27 @@ fn two_runs_cannot_share_a_directory() {
     resume(place.path(), -0.02).unwrap();
 }
 
+/// A process being started holds copies of all handles for a moment. Where only closing ended the lock, of 77 000 tries 99 % were refused.
+#[cfg(unix)]
+#[test]
+fn a_directory_can_be_opened_again_at_once_while_other_processes_are_started() {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    let place = tempfile::tempdir().unwrap();
+    let done = AtomicBool::new(false);
+    let start_others = || {
+        while !done.load(Ordering::Relaxed) {
+            std::process::Command::new("true").status().unwrap();
+        }
+    };
+    let opened = std::thread::scope(|scope| {
+        (0..3).for_each(|_| _ = scope.spawn(start_others));
+        let opened: Result<Vec<()>, StoreError> = (0..500).map(|_| resume(place.path(), -0.02).map(drop)).collect();
+        done.store(true, Ordering::Relaxed);
+        opened
+    });
+    assert_eq!(opened.unwrap().len(), 500);
+}
+
 #[test]
 fn names_that_lead_outside_are_refused() {
     let place = tempfile::tempdir().unwrap();

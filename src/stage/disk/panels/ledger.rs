@@ -2,22 +2,17 @@
 //! direction of travel), what damping and friction took out, what is stored more than a period before, and what is left over.
 
 use super::Frame;
-use crate::render::{Anchor, OverlayItem, Rectangle};
+use crate::render::{OverlayItem, Rectangle};
 use crate::stage::disk::motion::{DiskInstant, DiskMotion};
-use crate::stage::numbers;
-use crate::stage::panels::bars::{Bar, Bars, written};
+use crate::stage::panels::bars::{Bar, Bars, largest, written};
 use crate::stage::panels::energy::change;
-use glam::Vec2;
+use crate::stage::panels::full_scale::FullScale;
 use std::f64::consts::TAU;
-
-/// Instants looked at for the largest bar.
-const LOOKED_AT: u32 = 300;
-/// The scale follows the longest bar, so that what balances what is seen at small amplitudes too, down to this part of the film's longest.
-const LEAST: f64 = 0.01;
 
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
     bars: Bars,
+    full: FullScale,
     period: f64,
 }
 
@@ -26,10 +21,9 @@ impl Ledger {
         let Frame { motion, scale, palette, .. } = *frame;
         let title = "Energy per period".to_owned();
         let period = TAU / motion.angular_frequency();
-        let mut panel = Self { bars: Bars { place, scale, palette, title, largest: 0.0 }, period };
-        let times = (0..=LOOKED_AT).map(|n| motion.end() * f64::from(n) / f64::from(LOOKED_AT));
-        let largest = times.flat_map(|time| panel.entries(motion, &motion.at(time))).map(|bar| bar.value.abs());
-        panel.bars.largest = largest.fold(1e-9, f64::max);
+        let bars = Bars { place, scale, palette, title, unit: 1.0 };
+        let mut panel = Self { bars, period, full: FullScale::default() };
+        panel.full = FullScale::new(motion.end(), |time| largest(&panel.entries(motion, &motion.at(time))));
         panel
     }
 
@@ -48,26 +42,6 @@ impl Ledger {
     }
 
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
-        let entries = self.entries(motion, now);
-        let longest = entries.iter().map(|bar| bar.value.abs()).fold(LEAST * self.bars.largest, f64::max);
-        let bars = Bars { largest: longest, ..self.bars.clone() };
-        bars.draw(entries, out);
-        out.push(OverlayItem::Text {
-            position: Vec2::new(bars.place.max.x - 12.0 * bars.scale, bars.place.min.y + 19.0 * bars.scale),
-            anchor: Anchor::Right,
-            size: 11.0 * bars.scale,
-            colour: bars.palette.faint_text,
-            bold: false,
-            text: format!("full bar: {}", significant(longest)),
-        });
+        self.bars.draw(self.entries(motion, now), self.full.at(now.time), out);
     }
-}
-
-/// Two significant digits.
-fn significant(value: f64) -> String {
-    if value < 0.01 {
-        return numbers::with_power(value);
-    }
-    let digits = (1.0 - value.log10().floor()).max(0.0) as usize;
-    format!("{value:.digits$}")
 }

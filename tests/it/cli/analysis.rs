@@ -1,6 +1,6 @@
 //! The commands of the exact bifurcation analysis as a user meets them.
 
-use crate::cli::{document, refused};
+use super::{document, refused};
 use serde_json::Value;
 
 #[test]

@@ -1,6 +1,6 @@
 //! The slow flow on the command line.
 
-use crate::cli::{document, refused};
+use super::{document, refused};
 
 #[test]
 fn bifurcations_of_the_slow_flow_are_printed_with_their_parameters() {
