@@ -11,11 +11,11 @@ pub enum ParameterError {
     /// A number outside the range of its field, infinities and NaN included.
     #[error("{field} = {found} is not allowed: it must be {allowed}")]
     OutOfRange { field: String, found: f64, allowed: &'static str },
-    /// A wave number that a ring or row of so many sectors does not have.
+    /// A wave number that a ring or row does not have.
     #[error(
-        "{field} = {found} is not allowed: with {sectors} sectors it must be a whole number from {least} to {most}"
+        "{field} = {found} is not allowed: it must be a whole number from {least} to {most}, half the number of sectors"
     )]
-    NoSuchWave { field: String, found: i64, sectors: usize, least: i64, most: i64 },
+    NoSuchWave { field: String, found: i64, least: i64, most: i64 },
     /// A vector or matrix of the wrong size.
     #[error("{field} has {found} entries, expected {expected}: give one per {per}")]
     WrongLength { field: String, found: usize, expected: usize, per: &'static str },

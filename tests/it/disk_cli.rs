@@ -105,10 +105,7 @@ fn a_cycle_of_a_mistuned_disk_is_printed() {
     // 24 displacements, velocities and forces.
     assert_eq!(json["floquet_multipliers"].as_array().unwrap().len(), 72);
     refused(&["disk", "cycle", &scene("disk_mistuned"), "--wave", "-6"], &["no limit cycle", "-6"]);
-    refused(
-        &["disk", "cycle", &scene("disk_mistuned"), "--wave", "99"],
-        &["--wave = 99", "24 sectors", "from -11 to 12"],
-    );
+    refused(&["disk", "cycle", &scene("disk_mistuned"), "--wave", "99"], &["--wave = 99", "from -11 to 12"]);
     refused(&["disk", "cycle", &scene("chain_100"), "--wave", "1"], &["ring"]);
 }
 

@@ -15,6 +15,7 @@ use std::f64::consts::TAU;
 #[serde(deny_unknown_fields)]
 pub struct Harmonic {
     /// Waves round the ring, 0 to N/2; N/2 makes blades alternate.
+    #[schemars(range(min = 0))]
     pub order: i64,
     pub amplitude: f64,
     /// Rad.
@@ -89,7 +90,7 @@ fn check_order(number: usize, found: i64, sectors: usize) -> Result<(), Paramete
         return Ok(());
     }
     let field = format!("mistuning.harmonics[{number}].order");
-    Err(ParameterError::NoSuchWave { field, found, sectors, least: 0, most })
+    Err(ParameterError::NoSuchWave { field, found, least: 0, most })
 }
 
 fn pattern(deviations: &[f64], sectors: usize) -> Result<Vec<f64>, ParameterError> {
@@ -157,8 +158,11 @@ mod tests {
             let sound = Harmonic { order: 3, amplitude: 0.5, phase: 0.0 };
             let harmonics = vec![sound, Harmonic { order, ..sound }];
             let message = Mistuning::Harmonics { harmonics }.deviations(6).unwrap_err().to_string();
-            let expected = format!("mistuning.harmonics[1].order = {order} is not allowed: with 6 sectors");
-            assert!(message.starts_with(&expected) && message.ends_with("from 0 to 3"), "{message}");
+            let expected = format!("mistuning.harmonics[1].order = {order} is not allowed: ");
+            assert!(
+                message.starts_with(&expected) && message.contains("from 0 to 3, half the number of sectors"),
+                "{message}"
+            );
         }
     }
 }

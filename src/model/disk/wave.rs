@@ -45,7 +45,7 @@ impl NodalDiameter {
             return Ok(wave);
         }
         let (least, most) = (-(count - 1) / 2, count / 2);
-        Err(ParameterError::NoSuchWave { field: field.to_owned(), found: n, sectors, least, most })
+        Err(ParameterError::NoSuchWave { field: field.to_owned(), found: n, least, most })
     }
 
     /// All of a ring, in the order 0, 1, -1, 2, -2, ...

@@ -1,5 +1,5 @@
-//! Spectrum by nodal diameter: a bar for every wave, backward ones left of 0 and forward ones right of it; of a chain one for every mode. Means over the last
-//! period, as of the strongest waves: neither bars nor the name of the highest one flicker.
+//! Spectrum by nodal diameter: a bar for every wave, backward ones left of 0 and forward ones right of it; of a chain one for every mode.
+//! Means over the last period, as of the strongest waves: neither bars nor the name of the highest one flicker.
 
 use super::waves::means;
 use super::{Frame, WaveNames, draw_legend, strongest};
@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 
 /// Instants looked at for the largest bar.
 const LOOKED_AT: u32 = 300;
+/// Periods over which the highest bar is found.
+const PERIODS: u32 = 6;
 /// Part of the distance of two bars that a bar fills.
 const WIDE: f64 = 0.72;
 
@@ -46,7 +48,7 @@ impl Bars {
         let (plot, names) = (&self.plot, &self.names);
         plot.draw_frame(out);
         let amplitudes = means(motion, &self.spectrum, now.time, self.period);
-        let highest = strongest(&amplitudes);
+        let highest = self.highest(motion, now.time);
         for (index, &amplitude) in amplitudes.iter().enumerate() {
             let middle = names.number(index) as f64;
             let stroke = Stroke { width: 1.6 * plot.scale, colour: plot.palette.text };
@@ -61,6 +63,16 @@ impl Bars {
             });
         }
         self.draw_words(highest, amplitudes[highest], out);
+    }
+
+    /// The wave that was strongest over the last periods: where two are equally strong its name does not change from frame to frame.
+    fn highest(&self, motion: &DiskMotion, time: f64) -> usize {
+        let mut sum = vec![0.0; motion.blades()];
+        for before in 0..PERIODS {
+            let amplitudes = means(motion, &self.spectrum, time - self.period * f64::from(before), self.period);
+            sum.iter_mut().zip(amplitudes).for_each(|(sum, a)| *sum += a);
+        }
+        strongest(&sum)
     }
 
     fn draw_words(&self, highest: usize, amplitude: f64, out: &mut Vec<OverlayItem>) {

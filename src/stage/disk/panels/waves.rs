@@ -10,7 +10,7 @@ use glam::Vec2;
 use std::f64::consts::TAU;
 
 /// How clearly the waves shown are drawn, the strongest first.
-const CLARITY: [f32; 4] = [1.0, 0.8, 0.65, 0.5];
+const CLARITY: [f32; 4] = [1.0, 0.85, 0.72, 0.6];
 /// Waves that stay below this part of the strongest one's largest amplitude are left out: a line on the axis says nothing.
 const VISIBLE: f64 = 0.03;
 /// Instants of a period that a mean is taken over.
@@ -82,7 +82,7 @@ impl Waves {
             // At the side of the mark that has room.
             let pixel = place_of(index);
             // Where a stronger wave has its name there is no room for another.
-            if self.shown[..place].iter().any(|&other| (place_of(other).y - pixel.y).abs() < 12.0 * plot.scale) {
+            if self.shown[..place].iter().any(|&other| (place_of(other).y - pixel.y).abs() < 14.0 * plot.scale) {
                 continue;
             }
             let has_room = pixel.x < plot.area().max.x - 34.0 * plot.scale;
