@@ -206,6 +206,28 @@ fn the_slow_amplitudes_are_between_the_largest_elongations_of_a_period_ago() {
     }
 }
 
+/// A period after a turning point the panel shows the elongation there.
+#[test]
+fn the_slow_amplitudes_go_through_the_turning_points() {
+    let (case, trajectory) = torus();
+    let stage = stage(&case, &trajectory);
+    for mass in [0, 1] {
+        let turns = trajectory.samples.windows(2).filter_map(|pair| {
+            let [v0, v1] = [0, 1].map(|i: usize| pair[i].state.velocities[mass]);
+            let time = pair[0].time + (pair[1].time - pair[0].time) * v0 / (v0 - v1);
+            (v0 * v1 < 0.0).then(|| (time, pair[0].state.positions[mass].abs()))
+        });
+        let mut seen = 0;
+        for (time, elongation) in turns.filter(|(time, _)| (10.0..150.0).contains(time)) {
+            let found = discs(&panel(&stage.frame_at(time + std::f64::consts::TAU), Panel::Amplitudes))[0][mass];
+            // A sample is at most 0.04 from the turning point, where the elongation is 0.04^2/2 of an amplitude of 2 smaller; axes are read to 1e-4.
+            assert!((found - elongation).abs() < 2e-3, "mass {} at {time}: {found}, {elongation}", mass + 1);
+            seen += 1;
+        }
+        assert!(seen > 40, "{seen}");
+    }
+}
+
 #[test]
 fn the_map_marks_the_damping_of_the_scene() {
     let (case, trajectory) = torus();
