@@ -2,9 +2,11 @@
 
 use super::Verdict;
 use super::common::print;
-use super::film::{self, DrawArgs, Shown};
+use super::draw_args::DrawArgs;
+use super::film;
 use super::motions;
 use super::progress::Progress;
+use super::shown::Shown;
 use crate::film::{encode_small_png, gif, scaled};
 use crate::render::Renderer;
 use crate::scene::{BUILT_IN, BUILT_IN_DISKS, CameraMove, Case, Scene, Scheme};
@@ -85,7 +87,7 @@ fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<T
     let (start, sampling) = (motions::start(case)?, motions::film_sampling(case));
     let recording = motions::in_engine(case, &start, sampling)?;
     let exact = motions::exactly(case, &start, sampling)?;
-    film::stage(case, Shown::of_engine(case, &recording)?.beside(case, &exact)?, supersample, progress)
+    Shown::of_engine(case, &recording)?.beside(case, &exact)?.stage(case, supersample, progress)
 }
 
 /// The built-in scene in an engine that takes its velocities at face value, with coarse steps: what a fault of the engine looks like.

@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use super::common::print;
-use super::film::parse_frames;
+use super::draw_args::parse_frames;
 use crate::film::{animated_png, contact_sheet, encode_png, gif, scaled};
 use crate::render::has_transparency;
 use crate::stage::data_colours;

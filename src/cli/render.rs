@@ -2,9 +2,11 @@
 
 use super::case_args::SceneArgs;
 use super::common::{Common, Document, print};
-use super::film::{self, DrawArgs, Shown};
+use super::draw_args::DrawArgs;
+use super::film;
 use super::progress::Progress;
 use super::run::default_directory;
+use super::shown::Shown;
 use super::trajectory_table::from_table;
 use super::{Verdict, motions};
 use crate::film::encode_png;
@@ -73,7 +75,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         json!({ "case": case, "with": solver, "trajectory": args.trajectory, "trajectory_sha256": stored });
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
-    let stage = film::stage(&case, shown, args.draw.supersample, &progress)?;
+    let stage = shown.stage(&case, args.draw.supersample, &progress)?;
     let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
     if args.common.json {
         let document =
@@ -95,7 +97,7 @@ impl RenderArgs {
             path.display()
         );
         ensure!(self.common.force || !path.exists(), "{} exists: replace it with --force", path.display());
-        let (stage, scale) = (film::stage(case, shown, self.draw.supersample, progress)?, case.scales.time);
+        let (stage, scale) = (shown.stage(case, self.draw.supersample, progress)?, case.scales.time);
         ensure!(
             (0.0..=stage.end()).contains(&(time / scale)),
             "--at {time} is not in the motion: it lasts from 0 to {}",

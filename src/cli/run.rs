@@ -3,8 +3,10 @@
 use super::case_args::SceneArgs;
 use super::common::{Common, Document, print};
 use super::disk::filmed;
-use super::film::{self, DrawArgs, Made, Shown};
+use super::draw_args::DrawArgs;
+use super::film::{self, Made};
 use super::progress::Progress;
+use super::shown::Shown;
 use super::trajectory_table::{Provenance, to_table};
 use super::{Verdict, motions};
 use crate::compare::{Agreement, compare};
@@ -126,7 +128,7 @@ pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
     let checked = Checked::new(&case)?;
     progress.say(&checked.verdict_line());
     checked.write_trajectories(&case, &output, "")?;
-    let stage = film::stage(&case, checked.shown(&case)?, args.draw.supersample, &progress)?;
+    let stage = checked.shown(&case)?.stage(&case, args.draw.supersample, &progress)?;
     let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
     let document = Document::new("run", parameters)
         .with("engine", checked.engine_json())
