@@ -16,7 +16,7 @@ use crate::stage::Solution;
 use crate::store::{Existing, Origin, OutputDir, read_table, read_whole, sha256_hex, write_atomically};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// A period of 2 pi has some 25 samples then; fewer show corners that are not there.
@@ -57,22 +57,15 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         Some(path) => args.stored(path)?,
         None => args.computed()?,
     };
+    let parameters = args.parameters(&case)?;
     if let Some(time) = args.at {
-        return args.still(&case, shown, time, &progress);
+        return args.still(&case, shown, (time, parameters), &progress);
     }
     args.draw.check(case.frame_count())?;
-    let solver = match (&args.trajectory, args.solver) {
-        (Some(_), _) => "stored",
-        (None, Solver::Exact) => "exact",
-        (None, Solver::Rapier) => "rapier",
-    };
     let input = args.input.scene.as_deref().or(args.trajectory.as_deref());
     // The plain name belongs to `run`.
-    let directory = args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{solver}")));
-    // Two trajectories of one case differ by how they were computed: the bytes tell.
-    let stored = args.trajectory.as_deref().map(|path| anyhow::Ok(sha256_hex(&read_whole(path)?))).transpose()?;
-    let parameters =
-        json!({ "case": case, "with": solver, "trajectory": args.trajectory, "trajectory_sha256": stored });
+    let directory =
+        args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{}", args.solution_name())));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
     let stage = shown.stage(&case, args.draw.supersample, &progress)?;
@@ -88,8 +81,30 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
 }
 
 impl RenderArgs {
+    fn solution_name(&self) -> &'static str {
+        match (&self.trajectory, self.solver) {
+            (Some(_), _) => "stored",
+            (None, Solver::Exact) => "exact",
+            (None, Solver::Rapier) => "rapier",
+        }
+    }
+
+    /// What the pictures were made with.
+    fn parameters(&self, case: &Case) -> anyhow::Result<Value> {
+        // Two trajectories of one case differ by how they were computed: the bytes tell.
+        let stored = self.trajectory.as_deref().map(|path| anyhow::Ok(sha256_hex(&read_whole(path)?))).transpose()?;
+        let with = self.solution_name();
+        Ok(json!({ "case": case, "with": with, "trajectory": self.trajectory, "trajectory_sha256": stored }))
+    }
+
     /// `--at`: one picture.
-    fn still(&self, case: &Case, shown: Shown, time: f64, progress: &Progress) -> anyhow::Result<Verdict> {
+    fn still(
+        &self,
+        case: &Case,
+        shown: Shown,
+        (time, mut parameters): (f64, Value),
+        progress: &Progress,
+    ) -> anyhow::Result<Verdict> {
         let path = self.common.output.as_deref().context("--at needs -o FILE.png: where the picture goes")?;
         ensure!(
             path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")),
@@ -108,7 +123,7 @@ impl RenderArgs {
         let bytes = encode_png(&shrunk(&image, self.draw.supersample)).context("the picture could not be encoded")?;
         write_atomically(path, |writer| writer.write_all(&bytes))?;
         if self.common.json {
-            let parameters = json!({ "case": case, "at": time });
+            parameters["at"] = json!(time);
             print(&Document::new("render", parameters).with("files", json!([path])).text()?)?;
         } else {
             print(&path.display().to_string())?;
