@@ -47,7 +47,7 @@ pub struct Direction {
     pub captions: Vec<Caption>,
     /// Stretches of the film that show the motion slower or faster, in order of time and apart from each other.
     pub slow_motion: Vec<SlowMotion>,
-    /// Displacements are drawn this many times as large as fits between the parts of the rig or beside a disk.
+    /// Displacements are drawn this many times as large as fits between the parts of the rig or beside a disk. Above 1 the parts of the rig run into each other at the largest displacements of the film.
     pub magnification: f64,
 }
 
@@ -265,6 +265,8 @@ impl Direction {
         let require = |holds: bool, field, allowed| if holds { Ok(()) } else { Err((field, allowed)) };
         let chosen = self.panels.as_deref().unwrap_or_default();
         require(chosen.len() <= all.len(), "panels", "a list of at most 6 panels")?;
+        let is_repeated = |(n, panel)| chosen[..n].contains(panel);
+        require(!chosen.iter().enumerate().any(is_repeated), "panels", "a list that names each panel once")?;
         let known = chosen.iter().all(|panel| all.contains(panel));
         require(
             known,
@@ -290,7 +292,9 @@ impl Direction {
             require(degrees_per_second.abs() <= 360.0, "camera.degrees_per_second", "from -360 to 360")?;
         }
         let lasting = |from: f64, to: f64| from >= 0.0 && from < to && to.is_finite();
-        require(self.captions.iter().all(|c| lasting(c.from, c.to)), "captions", "a list with 0 <= from < to")?;
+        let following = self.captions.windows(2).all(|pair| pair[0].to <= pair[1].from);
+        let sound = self.captions.iter().all(|c| lasting(c.from, c.to));
+        require(following && sound, "captions", "a list in order of time, apart, 0 <= from < to")?;
         let slow = &self.slow_motion;
         let apart = slow.windows(2).all(|pair| pair[0].to <= pair[1].from);
         let sound = slow.iter().all(|s| lasting(s.from, s.to) && (0.001..=100.0).contains(&s.factor));
@@ -374,6 +378,11 @@ mod tests {
         assert_eq!(fault(Direction { magnification: 0.0, ..Direction::default() }), "magnification");
         let captions = vec![Caption { from: 2.0, to: 1.0, text: String::new() }];
         assert_eq!(fault(Direction { captions, ..Direction::default() }), "captions");
+        let caption = |from, to| Caption { from, to, text: String::new() };
+        let captions = vec![caption(0.0, 2.0), caption(1.0, 3.0)];
+        assert_eq!(fault(Direction { captions, ..Direction::default() }), "captions");
+        let twice = Some(vec![Panel::Map, Panel::Series, Panel::Map]);
+        assert_eq!(fault(Direction { panels: twice, ..Direction::default() }), "panels");
         assert!(slowed().check(&Panel::ALL).is_ok());
         let carpet = Direction { panels: Some(vec![Panel::Carpet]), ..Direction::default() };
         assert!(carpet.check(&Panel::DISK).is_ok());

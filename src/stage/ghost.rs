@@ -16,8 +16,8 @@ const LONGEST: f64 = 0.3;
 const SHORTEST: f64 = 0.004;
 const FULL: f64 = 0.03;
 /// Opacity of the outline's faces and edges.
-const FACE: f32 = 0.06;
-const EDGE: f32 = 0.8;
+const FACE: f32 = 0.15;
+const EDGE: f32 = 0.9;
 /// Differences beyond this factor of magnification are rounding.
 const LARGEST_FACTOR: f64 = 1e9;
 /// Faces of a cuboid whose corners are numbered by the bits of their signs, counter-clockwise seen from outside.
@@ -38,8 +38,10 @@ impl Ghost {
         let end = reference.end();
         let largest = motion.largest(|at| if at.time > end { 0.0 } else { distance(at, &reference.at(at.time)) });
         let wanted = LONGEST / (largest * f64::from(magnification));
-        // A power of ten, and never a reduction.
-        let factor = 10f64.powf(wanted.log10().floor()).max(1.0);
+        // 1, 2 or 5 times a power of ten, and never a reduction.
+        let decade = 10f64.powf(wanted.log10().floor());
+        let factor = [5.0, 2.0, 1.0].map(|digit| digit * decade).into_iter().find(|factor| *factor <= wanted);
+        let factor = factor.unwrap_or(decade).max(1.0);
         (largest > 0.0 && factor <= LARGEST_FACTOR).then_some(Self { reference, factor })
     }
 
@@ -142,7 +144,7 @@ fn draw_cuboid(
         edges.extend((0..4).map(|i| (face[i].min(face[(i + 1) % 4]), face[i].max(face[(i + 1) % 4]))));
     }
     for (from, to) in edges {
-        let stroke = Stroke { width: 1.5 * scale, colour: palette.ghost.with_alpha(EDGE * shown) };
+        let stroke = Stroke { width: 2.0 * scale, colour: palette.ghost.with_alpha(EDGE * shown) };
         out.push(OverlayItem::Line { points: vec![places[from], places[to]], stroke, clip: None });
     }
 }
@@ -169,11 +171,12 @@ mod tests {
     }
 
     #[test]
-    fn a_difference_is_magnified_by_the_power_of_ten_that_still_fits() {
+    fn a_difference_is_magnified_by_the_round_factor_that_still_fits() {
         let factor = |offset| Ghost::new(&motion(0.0), motion(offset), 0.3).map(|ghost| ghost.factor);
-        // 0.3 / (offset * 0.3), rounded down to a power of ten.
-        assert_eq!(factor(2e-5), Some(1e4));
+        // 0.3 / (offset * 0.3), rounded down to 1, 2 or 5 times a power of ten.
+        assert_eq!(factor(1.9e-5), Some(5e4));
         assert_eq!(factor(0.9e-5), Some(1e5));
+        assert_eq!(factor(0.4e-5), Some(2e5));
         assert_eq!(factor(5.0), Some(1.0));
         assert_eq!(factor(0.0), None);
         assert_eq!(factor(1e-15), None, "rounding is no difference");

@@ -19,8 +19,42 @@ const CAPTION: [f32; 2] = [15.0, 20.0];
 /// Height of the lines above the status: what computed the motion, and how far the exact solution is from it.
 pub const ABOVE: [f32; 2] = [14.0, 33.0];
 
-/// Headline and caption, top left; the caption, shown as far as its second part says, breaks into lines that fit the width. A long
-/// headline is written smaller, a very long one in two lines.
+/// Headline and caption as they break into lines that fit the width.
+struct Headline {
+    size: f32,
+    title: Vec<String>,
+    caption: Vec<String>,
+}
+
+impl Headline {
+    /// A long headline is written smaller, a very long one in several lines.
+    fn new(title: &str, caption: &str, width: f32, scale: f32) -> Self {
+        let [usual, least] = HEADLINE.map(|size| size * scale);
+        let size = (usual * width / text_width(title, usual, true)).clamp(least, usual);
+        let title = wrap(title, size, true, width);
+        Self { size, title, caption: wrap(caption, CAPTION[0] * scale, false, width) }
+    }
+
+    /// Below the top: lines of the headline, and of the caption.
+    fn title_line(&self, row: usize, scale: f32) -> f32 {
+        26.0 * scale + 1.2 * self.size * row as f32
+    }
+
+    fn caption_line(&self, row: usize, scale: f32) -> f32 {
+        self.title_line(self.title.len().saturating_sub(1), scale) + (26.0 + CAPTION[1] * row as f32) * scale
+    }
+}
+
+/// Height of headline and caption with the highest of the captions.
+pub fn headline_height<'a>(title: &str, captions: impl Iterator<Item = &'a str>, width: f32, scale: f32) -> f32 {
+    let foot = |caption| {
+        let headline = Headline::new(title, caption, width, scale);
+        headline.caption_line(headline.caption.len().saturating_sub(1), scale)
+    };
+    captions.map(foot).fold(0.0, f32::max) + 12.0 * scale
+}
+
+/// Headline and caption, top left; the caption is shown as far as its second part says.
 pub fn draw_headline(
     title: &str,
     (caption, shown): (&str, f64),
@@ -29,19 +63,15 @@ pub fn draw_headline(
     scale: f32,
     out: &mut Vec<OverlayItem>,
 ) {
-    let [usual, least] = HEADLINE.map(|size| size * scale);
-    let size = (usual * width / text_width(title, usual, true)).clamp(least, usual);
-    let lines = wrap(title, size, true, width);
-    let mut foot = origin.y + 26.0 * scale;
-    for (row, line) in lines.into_iter().enumerate() {
-        foot = origin.y + 26.0 * scale + 1.2 * size * row as f32;
-        out.push(text(Vec2::new(origin.x, foot), size, palette.text, true, line));
+    let headline = Headline::new(title, caption, width, scale);
+    for (row, line) in headline.title.iter().enumerate() {
+        let place = origin + Vec2::new(0.0, headline.title_line(row, scale));
+        out.push(text(place, headline.size, palette.text, true, line.clone()));
     }
     let colour = palette.faint_text.with_alpha(shown as f32);
-    let [size, pitch] = CAPTION.map(|size| size * scale);
-    for (row, line) in wrap(caption, size, false, width).into_iter().enumerate() {
-        let place = Vec2::new(origin.x, foot + 26.0 * scale + pitch * row as f32);
-        out.push(text(place, size, colour, false, line));
+    for (row, line) in headline.caption.iter().enumerate() {
+        let place = origin + Vec2::new(0.0, headline.caption_line(row, scale));
+        out.push(text(place, CAPTION[0] * scale, colour, false, line.clone()));
     }
 }
 

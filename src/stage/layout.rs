@@ -1,7 +1,9 @@
 //! Where things stand in the picture: scene and words above up to three panels in a row; of more, three stand in a column beside the scene.
 //! In an upright or square picture all stand below it, two in a row.
 
+use super::labels;
 use crate::render::{Camera, Rectangle};
+use crate::scene::Case;
 use glam::{Vec2, Vec3};
 
 /// Width of the scene where panels stand beside it, as a part of the picture's.
@@ -35,6 +37,8 @@ pub struct Layout {
     pub panels: Vec<Rectangle>,
     /// What is left for the scene with its words.
     pub scene: Rectangle,
+    /// Height of the headline and its captions, at least the usual one.
+    headline: f32,
 }
 
 /// Places side by side between `left` and `right`.
@@ -68,7 +72,7 @@ impl Layout {
         let below = row(in_row, [border, right], [height - border - low, height - border], gap);
         let panels = column.chain(below).collect();
         let scene = Rectangle { min: Vec2::splat(border), max: Vec2::new(right, bottom) };
-        Self { size, scale, panels, scene }
+        Self { size, scale, panels, scene, headline: HEADLINE * scale }
     }
 
     fn upright(size: [u32; 2], panels: usize) -> Self {
@@ -83,7 +87,26 @@ impl Layout {
             row((panels - 2 * number).min(2), [border, width - border], [top, top + tall], gap)
         });
         let scene = Rectangle { min: Vec2::splat(border), max: Vec2::new(width - border, head) };
-        Self { size, scale, panels: below.collect(), scene }
+        Self { size, scale, panels: below.collect(), scene, headline: HEADLINE * scale }
+    }
+
+    /// That of a case, with room for its title and the highest of its captions.
+    #[must_use]
+    pub fn of(case: &Case) -> Self {
+        let layout = Self::new([case.film.width, case.film.height], case.panels().len());
+        let captions = case.direction.captions.iter().map(|caption| caption.text.as_str());
+        let captions = captions.chain([case.caption.as_str()]);
+        let width = layout.scene.max.x - layout.scene.min.x;
+        let height = labels::headline_height(&case.title, captions, width, layout.scale);
+        layout.below_headline(height)
+    }
+
+    /// The scene begins below words of this height, if they are higher than usual.
+    #[must_use]
+    fn below_headline(self, height: f32) -> Self {
+        // Whatever is written, half of the place is the scene's.
+        let most = 0.5 * (self.scene.max.y - self.scene.min.y);
+        Self { headline: self.headline.max(height.min(most)), ..self }
     }
 
     /// Upper left corner of the status line.
@@ -97,7 +120,7 @@ impl Layout {
     #[must_use]
     pub fn camera(&self, shown: &Shown, [azimuth, elevation]: [f32; 2], zoom: f32, shift: Vec3) -> Camera {
         let [width, height] = self.size.map(|side| side as f32);
-        let (top, bottom) = (self.scene.min.y + HEADLINE * self.scale, self.scene.max.y - STATUS * self.scale);
+        let (top, bottom) = (self.scene.min.y + self.headline, self.scene.max.y - STATUS * self.scale);
         let aspect = (self.scene.max.x - self.scene.min.x) / (bottom - top);
         let towards = Vec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
         let right = Vec3::new(azimuth.cos(), 0.0, -azimuth.sin());

@@ -78,7 +78,7 @@ impl Stage {
     #[must_use]
     pub fn new(case: Case, motion: Motion, beside: Beside) -> Self {
         let palette = Palette::of(case.film.theme).before(case.film.background);
-        let layout = Layout::new([case.film.width, case.film.height], case.panels().len());
+        let layout = Layout::of(&case);
         let panels = Panels::new(&case, &motion, beside.map.as_ref(), &layout.panels, layout.scale, palette);
         let rig = RigModel::new(&case, &motion, palette);
         let ghost = beside.exact.and_then(|exact| Ghost::new(&motion, exact, rig.magnification()));
@@ -164,7 +164,7 @@ impl Stage {
         });
         self.draw_names(now, camera, out);
         let above_status = Vec2::new(0.0, 14.0) * scale;
-        if self.case.prescribed.is_none() {
+        if self.case.prescribed.is_none() && self.case.excitation().strongest() < 0.0 {
             out.push(OverlayItem::Text {
                 position: Vec2::new(scene.max.x - 14.0 * scale, status.y) - above_status,
                 anchor: Anchor::Right,

@@ -69,7 +69,7 @@ impl DiskStage {
     pub fn new(case: Case, motion: DiskMotion, exact: Option<DiskMotion>) -> Option<Self> {
         let disk = case.disk.as_ref()?.disk.clone();
         let palette = Palette::of(case.film.theme).before(case.film.background);
-        let layout = Layout::new([case.film.width, case.film.height], case.panels().len());
+        let layout = Layout::of(&case);
         let colours = DeflectionColours::new(case.film.theme, motion.largest_deflection().max(SMALLEST));
         let pace = (case.film.speed / USUAL_SPEED).max(1.0);
         let frame = Frame { disk: &disk, motion: &motion, colours, pace, scale: layout.scale, palette };

@@ -4,7 +4,7 @@ use super::geometry::{HEIGHT, TIP_RADIUS};
 use super::model::{DiskModel, HUB_HALF};
 use super::motion::{DiskInstant, DiskMotion};
 use crate::model::{BladedDisk, Topology};
-use crate::render::{Anchor, Camera, Colour, OverlayItem, Rectangle, Stroke};
+use crate::render::{Anchor, Camera, Colour, OverlayItem, Rectangle, Stroke, text_width};
 use crate::stage::Solution;
 use crate::stage::labels;
 use crate::stage::layout::Layout;
@@ -93,10 +93,13 @@ impl Words {
             .collect();
         let (Some(points), Some(head)) = (points, head) else { return };
         let colour = self.palette.masses[0];
-        let beside = points[points.len() / 2] + Vec2::new(14.0, 12.0) * self.scale;
+        let mut beside = points[points.len() / 2] + Vec2::new(14.0, 12.0) * self.scale;
+        // In a narrow picture over the arrow rather than cut.
+        let name = "forward waves";
+        beside.x = beside.x.min(size[0] as f32 - text_width(name, 12.0 * self.scale, false) - 6.0 * self.scale);
         out.push(OverlayItem::Line { points, stroke: Stroke { width: 2.4 * self.scale, colour }, clip: None });
         out.push(OverlayItem::Polygon { points: head, fill: colour, clip: None });
-        out.push(self.text(beside, Anchor::Left, 12.0, colour, "forward waves".to_owned()));
+        out.push(self.text(beside, Anchor::Left, 12.0, colour, name.to_owned()));
     }
 
     /// Contacts that slipped in the last period and time at the left, the disk and what is magnified at the right of the lines below the scene.

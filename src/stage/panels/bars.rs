@@ -1,7 +1,7 @@
 //! A ledger as a panel of horizontal bars about zero, each with its label and its number, on a scale with marks.
 
 use super::full_scale::marks;
-use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke};
+use crate::render::{Anchor, Colour, OverlayItem, Rectangle, Stroke, text_width};
 use crate::stage::numbers;
 use crate::stage::palette::Palette;
 use glam::Vec2;
@@ -86,15 +86,21 @@ impl Bars {
             line(zero + shift(value), palette.zero_line.with_alpha(0.6 * mark.line));
         }
         line(zero, palette.zero_line);
-        for (value, mark) in both().filter(|(_, mark)| mark.number > 0.0) {
-            let word = if (1e-3..1e4).contains(&value.abs()) {
-                format!("{value}").replace('-', "−")
+        for mark in marks.iter().filter(|mark| mark.number > 0.0) {
+            let word = if (1e-3..1e4).contains(&mark.value) {
+                format!("{}", mark.value)
             } else {
-                numbers::with_power(value)
+                numbers::with_power(mark.value)
             };
-            let (place, colour) =
-                (Vec2::new(zero + shift(value), head - 3.0 * s), palette.faint_text.with_alpha(mark.number));
-            out.push(self.text(place, Anchor::Centre, 10.0, colour, false, word));
+            let negative = format!("−{word}");
+            // Where both have no room the sign is plain without the left one.
+            let is_free = text_width(&negative, 10.0 * s, false) < 1.8 * shift(mark.value);
+            let words = [(-mark.value, negative, is_free), (mark.value, word, true)];
+            for (value, word, _) in words.into_iter().filter(|(_, _, is_shown)| *is_shown) {
+                let place = Vec2::new(zero + shift(value), head - 3.0 * s);
+                let colour = palette.faint_text.with_alpha(mark.number);
+                out.push(self.text(place, Anchor::Centre, 10.0, colour, false, word));
+            }
         }
     }
 
@@ -108,9 +114,9 @@ pub fn largest(bars: &[Bar]) -> f64 {
     bars.iter().map(|bar| bar.value.abs()).fold(0.0, f64::max)
 }
 
-/// With its sign; three digits after the point, or two and the power of ten.
+/// With its sign; three digits after the point, or two and the power of ten where asked for or where there is no room.
 pub fn written(value: f64, with_power: bool) -> String {
-    if with_power {
+    if with_power || value.abs() >= 1000.0 {
         let sign = if value > 0.0 { "+" } else { "" };
         return format!("{sign}{}", numbers::with_power(value));
     }
@@ -133,5 +139,6 @@ mod tests {
         assert_eq!(written(-0.0001, false), "0.000");
         assert_eq!(written(-2.34e-6, true), "−2.3·10⁻⁶");
         assert_eq!(written(2.34e-6, true), "+2.3·10⁻⁶");
+        assert_eq!(written(530_954.553, false), "+5.3·10⁵");
     }
 }

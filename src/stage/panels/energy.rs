@@ -8,8 +8,9 @@
 use super::Frame;
 use super::bars::{Bar, Bars, largest, written};
 use super::full_scale::FullScale;
-use crate::model::{EnergyLedger, Scales};
+use crate::model::{EnergyLedger, RigParameters, Scales};
 use crate::render::{OverlayItem, Rectangle};
+use crate::scene::Case;
 use crate::stage::motion::{Instant, Motion};
 use std::f64::consts::TAU;
 
@@ -21,7 +22,24 @@ pub(super) struct Energy {
     bars: Bars,
     full: FullScale,
     scales: Scales,
-    is_driven: bool,
+    rows: Rows,
+}
+
+/// Rows that are not in every ledger.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rows {
+    pub drive: bool,
+    pub excitation: bool,
+    pub damping: bool,
+}
+
+impl Rows {
+    /// Where a mass is moved from outside there is a drive, and what the rig has not got is no row.
+    pub fn of(case: &Case) -> Self {
+        let drive = case.prescribed.is_some();
+        let RigParameters { xi1, xi2, .. } = case.parameters;
+        Self { drive, excitation: !drive || xi1 != 0.0, damping: !drive || xi2 != 0.0 }
+    }
 }
 
 /// Change of a ledger from an earlier one.
@@ -37,12 +55,12 @@ pub fn change(before: &EnergyLedger, now: &EnergyLedger) -> EnergyLedger {
 }
 
 impl Energy {
-    pub fn new(frame: &Frame<'_>, place: Rectangle, is_driven: bool) -> Self {
+    pub fn new(frame: &Frame<'_>, place: Rectangle, rows: Rows) -> Self {
         let Frame { motion, scales, scale, palette } = *frame;
         let unit = if scales == Scales::UNITY { "" } else { " [J]" };
         let title = format!("Energy in the last period{unit}");
         let bars = Bars { place, scale, palette, title, unit: scales.energy };
-        let mut panel = Self { bars, full: FullScale::default(), scales, is_driven };
+        let mut panel = Self { bars, full: FullScale::default(), scales, rows };
         panel.full = FullScale::new(motion.end(), |time| largest(&panel.entries(motion, &motion.at(time))));
         panel
     }
@@ -55,15 +73,16 @@ impl Energy {
             let number = written(value * self.scales.energy, is_tiny || self.scales != Scales::UNITY);
             Bar { label, colour, value, number }
         };
-        let drive = self.is_driven.then(|| bar("drive", palette.stick, works.drive, false));
-        let works = [
-            bar("excitation", palette.excitation, works.self_excitation, false),
-            bar("damping", palette.damping, works.damping, false),
+        let Rows { drive, excitation, damping } = self.rows;
+        let drive = drive.then(|| bar("drive", palette.stick, works.drive, false));
+        let excitation = excitation.then(|| bar("excitation", palette.excitation, works.self_excitation, false));
+        let damping = damping.then(|| bar("damping", palette.damping, works.damping, false));
+        let always = [
             bar("friction", palette.slip, works.friction, false),
             bar("stored", palette.masses[0], ledger.stored - ledger.stored_at_start, false),
             bar("residual", palette.text, ledger.residual(), true),
         ];
-        drive.into_iter().chain(works).collect()
+        drive.into_iter().chain(excitation).chain(damping).chain(always).collect()
     }
 
     pub fn draw(&self, motion: &Motion, now: &Instant, out: &mut Vec<OverlayItem>) {

@@ -51,8 +51,8 @@ impl Map {
         let (plot, palette, length) = (&self.plot, &self.plot.palette, self.scales.length);
         plot.draw_frame(out);
         for &(xi1, amplitudes) in self.map.motions.iter().filter(|(_, [_, largest])| *largest < HIGHEST) {
-            for amplitude in amplitudes {
-                let centre = plot.pixel(-xi1, amplitude * length);
+            let inside = |centre: &Vec2| centre.cmpge(plot.area().min).all() && centre.cmple(plot.area().max).all();
+            for centre in amplitudes.map(|amplitude| plot.pixel(-xi1, amplitude * length)).into_iter().filter(inside) {
                 out.push(OverlayItem::Disc { centre, radius: DOT * plot.scale, fill: palette.damping, stroke: None });
             }
         }

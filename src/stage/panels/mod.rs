@@ -17,7 +17,7 @@ use crate::model::Scales;
 use crate::render::{OverlayItem, Rectangle};
 use crate::scene::{Case, Panel};
 use amplitudes::Amplitudes;
-use energy::Energy;
+use energy::{Energy, Rows};
 use map::Map;
 use planes::{Hysteresis, PhasePlane};
 use series::Series;
@@ -114,7 +114,7 @@ impl Panels {
             Panel::Hysteresis => Some(Drawn::Hysteresis(Hysteresis::new(&frame, place))),
             Panel::Phase => Some(Drawn::Phase(PhasePlane::new(&frame, place))),
             Panel::Amplitudes => Some(Drawn::Amplitudes(Amplitudes::new(&frame, place))),
-            Panel::Energy => Some(Drawn::Energy(Energy::new(&frame, place, case.prescribed.is_some()))),
+            Panel::Energy => Some(Drawn::Energy(Energy::new(&frame, place, Rows::of(case)))),
             Panel::Map => {
                 Some(Drawn::Map(Map::new(&frame, place, map.cloned().unwrap_or_default(), case.excitation())))
             }
