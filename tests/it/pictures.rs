@@ -5,7 +5,9 @@ use crate::small_scene::{BACKDROP, GLOWING, RED, brightness, draw, empty, object
 use glam::{Affine3A, Vec2, Vec3};
 use sha2::{Digest, Sha256};
 use stickslip::render::shapes::{block, floor};
-use stickslip::render::{Colour, CpuRenderer, DrawList, Material, OverlayItem, RenderError, Renderer, Stroke};
+use stickslip::render::{
+    Background, Colour, CpuRenderer, DrawList, Light, Material, OverlayItem, RenderError, Renderer, Stroke,
+};
 
 #[test]
 fn an_empty_scene_is_the_backdrop() {
@@ -148,6 +150,26 @@ fn the_same_bytes_on_any_number_of_threads_and_every_time() {
     let mut renderer = CpuRenderer::new("test");
     renderer.draw(&demonstration::picture([200, 300], 2.0)).unwrap();
     assert!(renderer.draw(&list).unwrap().0 == first, "the picture depends on the one before");
+}
+
+/// The rounded lower edge of a dark block turns away from the eye and from the sky: no pixel of it is brighter than the face above it. (Where a
+/// mixed normal that points away from the eye is mirrored as it is, the edge shows bright dots of sky.)
+#[test]
+fn the_lower_edge_of_a_block_does_not_sparkle() {
+    let dark = Material { colour: Colour::rgb(0x10_10_10), roughness: 0.3, metallic: 0.0, glow: 0.0 };
+    let mut list = DrawList { size: [400, 400], ..empty() };
+    list.camera.eye = Vec3::new(0.0, 0.8, 2.0);
+    list.light = Light { intensity: 0.0, sky: Colour::rgb(0xff_ff_ff), ground: Colour::rgb(0x10_10_10), ..list.light };
+    list.background = Background { top: Colour::rgb(0), bottom: Colour::rgb(0) };
+    for shift in 0..8 {
+        let place = Vec3::Y * (0.0013 * shift as f32);
+        list.objects = vec![object(block(Vec3::new(0.4, 0.3, 0.1), 0.012), place, dark)];
+        let image = draw(&list);
+        let face = brightness(image.get_pixel(200, 220));
+        let below = (230..400).flat_map(|y| (150..250).map(move |x| (x, y)));
+        let brightest = below.map(|(x, y)| brightness(image.get_pixel(x, y))).max().unwrap();
+        assert!(face > 0 && brightest <= face, "{brightest} at the edge, {face} on the face");
+    }
 }
 
 fn hash(list: &DrawList) -> String {

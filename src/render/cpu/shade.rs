@@ -93,11 +93,10 @@ impl<'a> Lighting<'a> {
     fn reflected(&self, points: &Points, shadows: Shadows) -> Lanes3 {
         let normal = points.normal.normalize();
         let view = (self.eye - points.position).normalize();
-        let facing_eye = normal.dot(view);
         let stand = Stand {
             normal,
             view,
-            facing_eye: facing_eye.max(Vec4::splat(1e-3)),
+            facing_eye: normal.dot(view).max(Vec4::splat(1e-3)),
             facing_sun: normal.dot(self.towards).max(Vec4::ZERO),
         };
         let lit = match shadows {
@@ -106,7 +105,7 @@ impl<'a> Lighting<'a> {
         };
         let matt = points.colour * (Vec4::ONE - points.metallic);
         let mirror = Lanes3::grey(Vec4::splat(PLAIN_MIRROR)).towards(points.colour, points.metallic);
-        let mut light = self.ambient(&stand, matt, mirror, points.roughness, facing_eye, lit);
+        let mut light = self.ambient(&stand, matt, mirror, points.roughness, lit);
         if lit != Vec4::ZERO {
             let highlight = self.highlight(&stand, points.roughness, mirror);
             light = light + self.sun * (matt + highlight) * (stand.facing_sun * lit);
@@ -115,12 +114,13 @@ impl<'a> Lighting<'a> {
     }
 
     /// Sky and ground, matt and mirrored.
-    fn ambient(&self, stand: &Stand, matt: Lanes3, mirror: Lanes3, roughness: Vec4, facing: Vec4, lit: Vec4) -> Lanes3 {
+    fn ambient(&self, stand: &Stand, matt: Lanes3, mirror: Lanes3, roughness: Vec4, lit: Vec4) -> Lanes3 {
         let half = Vec4::splat(0.5);
         let diffuse = matt * self.hemisphere(stand.normal.y * half + half);
         let glancing = fifth_power(Vec4::ONE - stand.facing_eye);
         let fresnel = mirror.towards(mirror.max(Lanes3::grey(Vec4::ONE - roughness)), glancing);
-        let bounced = stand.normal.y * (facing * 2.0) - stand.view.y;
+        // Normals of a bevel are mixed and may point away from the eye at its far edge: there it mirrors what lies beyond it, not the sky.
+        let bounced = stand.normal.y * (stand.facing_eye * 2.0) - stand.view.y;
         let sky = Vec4::splat(SKY_IN_SHADOW) + lit * (1.0 - SKY_IN_SHADOW);
         (diffuse + fresnel * self.surroundings(bounced, roughness)) * sky
     }

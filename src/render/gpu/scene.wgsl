@@ -120,8 +120,7 @@ fn reflected(surface: Surface, with_shadows: bool) -> vec3<f32> {
     let metallic = surface.finish.y;
     let normal = normalize(surface.normal);
     let view = normalize(frame.eye.xyz - surface.position);
-    let facing = dot(normal, view);
-    let facing_eye = max(facing, 1e-3);
+    let facing_eye = max(dot(normal, view), 1e-3);
     let facing_sun = max(dot(normal, frame.towards.xyz), 0.0);
     let matt = surface.colour * (1.0 - metallic);
     let mirror = mix(vec3<f32>(PLAIN_MIRROR), surface.colour, metallic);
@@ -137,7 +136,7 @@ fn reflected(surface: Surface, with_shadows: bool) -> vec3<f32> {
     }
     let diffuse = matt * hemisphere(normal.y * 0.5 + 0.5);
     let fresnel = mix(mirror, max(mirror, vec3<f32>(1.0 - roughness)), fifth_power(1.0 - facing_eye));
-    let bounced = normal.y * (facing * 2.0) - view.y;
+    let bounced = normal.y * (facing_eye * 2.0) - view.y;
     let ambient = diffuse + fresnel * surroundings(bounced, roughness);
     return sun + ambient * (SKY_IN_SHADOW + lit * (1.0 - SKY_IN_SHADOW));
 }
