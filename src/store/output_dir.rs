@@ -6,9 +6,9 @@
 use super::atomic::{create_directory, create_temporary, read_whole, remove_leftovers, write_atomically};
 use super::error::StoreError;
 use super::journal::{self, Journal, Record, check_name};
+use super::origin::Origin;
 use super::{hex, sha256_hex};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -28,41 +28,6 @@ pub enum Existing {
     Resume,
     /// Remove the old output this program made, and overwrite files in the way (`--force`).
     Replace,
-}
-
-/// Everything that decides the content of an output directory.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Origin {
-    /// Version of this program: other versions may compute or draw otherwise.
-    pub stickslip: String,
-    pub command: String,
-    pub parameters: Value,
-}
-
-impl Origin {
-    /// This version of the program, running `command` with `parameters`.
-    #[must_use]
-    pub fn new(command: &str, parameters: Value) -> Self {
-        Self { stickslip: env!("CARGO_PKG_VERSION").to_owned(), command: command.to_owned(), parameters }
-    }
-
-    /// SHA-256 of version, command and parameters as JSON with sorted keys and without spaces.
-    #[must_use]
-    pub fn sha256(&self) -> String {
-        let whole = serde_json::json!([self.stickslip, self.command, self.parameters]);
-        sha256_hex(sorted(&whole).to_string().as_bytes())
-    }
-
-    /// Which fields differ, for the reader of an error.
-    fn differences(&self, old: &Self) -> String {
-        let (old, new) = (serde_json::to_value(old), serde_json::to_value(self));
-        let mut found = Vec::new();
-        collect_differences("", &old.unwrap_or_default(), &new.unwrap_or_default(), &mut found);
-        let more = found.len().saturating_sub(4);
-        found.truncate(4);
-        let shown = found.join(", ");
-        if more == 0 { shown } else { format!("{shown} and {more} more") }
-    }
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -268,30 +233,4 @@ fn remove_all_leftovers(root: &Path, journal: &Journal) -> Result<(), StoreError
     let mut directories = BTreeSet::from([root.to_owned()]);
     directories.extend(journal.names().filter_map(|name| root.join(name).parent().map(Path::to_owned)));
     directories.iter().try_for_each(|directory| remove_leftovers(directory).map(|_| ()))
-}
-
-/// The same value with the keys of all objects in order, whatever order the JSON library keeps.
-fn sorted(value: &Value) -> Value {
-    match value {
-        Value::Array(items) => items.iter().map(sorted).collect(),
-        Value::Object(map) => {
-            let mut entries: Vec<_> = map.iter().collect();
-            entries.sort_by_key(|(key, _)| *key);
-            entries.into_iter().map(|(key, value)| (key.clone(), sorted(value))).collect()
-        }
-        plain => plain.clone(),
-    }
-}
-
-/// Lines such as `parameters.xi1: -0.02 there, -0.03 now`.
-fn collect_differences(at: &str, old: &Value, new: &Value, found: &mut Vec<String>) {
-    if let (Value::Object(old), Value::Object(new)) = (old, new) {
-        let keys: BTreeSet<_> = old.keys().chain(new.keys()).collect();
-        for key in keys {
-            let at = if at.is_empty() { key.clone() } else { format!("{at}.{key}") };
-            collect_differences(&at, old.get(key).unwrap_or(&Value::Null), new.get(key).unwrap_or(&Value::Null), found);
-        }
-    } else if sorted(old) != sorted(new) {
-        found.push(format!("{at}: {old} there, {new} now"));
-    }
 }

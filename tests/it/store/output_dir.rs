@@ -59,6 +59,28 @@ fn output_of_other_parameters_is_refused_and_the_difference_named() {
     assert!(OutputDir::open(place.path(), &other_version, Existing::Resume).is_err());
 }
 
+/// Lists of one length are compared item by item; of others, and of long texts, only the beginning is shown.
+#[test]
+fn differences_within_lists_are_named_and_long_values_cut() {
+    let message = |old: serde_json::Value, new: serde_json::Value| {
+        let place = tempfile::tempdir().unwrap();
+        OutputDir::open(place.path(), &Origin::new("run", old), Existing::Resume).unwrap();
+        let error = OutputDir::open(place.path(), &Origin::new("run", new), Existing::Resume).unwrap_err().to_string();
+        error.split("other parameters: ").nth(1).unwrap().split(". Choose").next().unwrap().to_owned()
+    };
+    let long = "\u{e4}".repeat(5000);
+    let case = |theme: &str| json!({"film": {"theme": theme}, "caption": long});
+    let story = |last: &str| json!({"story": [case("dark"), case("dark"), case(last)]});
+    assert_eq!(message(story("dark"), story("light")), r#"parameters.story[2].film.theme: "dark" there, "light" now"#);
+    // 60 characters, the quotation mark one of them, of two bytes each.
+    let cut = format!("\"{}...", "\u{e4}".repeat(59));
+    assert_eq!(message(json!({"a": long}), json!({"a": 1})), format!("parameters.a: {cut} there, 1 now"));
+    assert_eq!(message(json!({"a": [1, 2]}), json!({"a": [1]})), "parameters.a: [1,2] there, [1] now");
+    let (old, new) =
+        (message(json!({"a": vec![0; 9]}), json!({"a": vec![1; 9]})), "parameters.a[3]: 0 there, 1 now and 5 more");
+    assert!(old.starts_with("parameters.a[0]: 0 there, 1 now, ") && old.ends_with(new), "{old}");
+}
+
 #[test]
 fn force_removes_what_the_old_run_made_and_nothing_else() {
     let place = tempfile::tempdir().unwrap();
