@@ -102,5 +102,8 @@ fn odd_sizes_are_those_of_the_pictures_and_the_film_is_even() {
     assert!(told.contains("H.264 needs even sides"), "{told}");
     assert_eq!(size(&film.join("frames/000002.png")), (65, 97));
     assert_eq!(crate::film::mp4::read(&fs::read(film.join("film.mp4")).unwrap()).size, [66, 98]);
+    let help = String::from_utf8(stickslip(&["render", "--help"]).stdout).unwrap();
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("where one is odd, film.mp4 repeats the last column or row"), "{help}");
     refused(&["render", "--size", "63x64"], &["film.width", "width = 63", "from 64 to 7680"]);
 }
