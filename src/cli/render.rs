@@ -1,7 +1,7 @@
 //! `render`: frames and film of a scene or a stored trajectory, without the cross-check.
 
 use super::case_args::SceneArgs;
-use super::common::{Common, Document, print};
+use super::common::{Common, Document, print, refuse_existing};
 use super::draw_args::DrawArgs;
 use super::film;
 use super::progress::Progress;
@@ -111,7 +111,7 @@ impl RenderArgs {
             "{} is no PNG file: end its name in .png",
             path.display()
         );
-        ensure!(self.common.force || !path.exists(), "{} exists: replace it with --force", path.display());
+        refuse_existing(path, self.common.force)?;
         let (stage, scale) = (shown.stage(case, self.draw.supersample, progress)?, case.scales.time);
         ensure!(
             (0.0..=stage.end()).contains(&(time / scale)),

@@ -4,6 +4,7 @@ mod analysis;
 mod frames;
 mod generated;
 mod input;
+mod pictures;
 mod render;
 mod run;
 mod simulate;
