@@ -1,6 +1,6 @@
 //! Making a film of a motion: shared by `run` and `render`.
 
-use super::draw_args::DrawArgs;
+use super::draw_args::{DrawArgs, PictureArgs};
 use super::progress::Progress;
 use crate::film::{self, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
 use crate::render::{AdapterInfo, Colour, DrawList, OverlayItem, Rectangle, Renderer};
@@ -85,7 +85,7 @@ pub struct Made {
 }
 
 /// Opens what draws, and says which it is.
-pub fn renderer(args: &DrawArgs, progress: &Progress) -> anyhow::Result<Box<dyn Renderer>> {
+pub fn renderer(args: &PictureArgs, progress: &Progress) -> anyhow::Result<Box<dyn Renderer>> {
     let renderer = crate::render::open(args.renderer.choice())?;
     let adapter = renderer.info();
     progress.say(&format!("renderer: {} ({}): {}", adapter.adapter, adapter.backend, adapter.reason));
@@ -101,10 +101,10 @@ pub fn make(
     progress: &mut Progress,
 ) -> anyhow::Result<Made> {
     let fade = (FADE * f64::from(film.fps)).ceil() as u64;
-    let source = Source { stages, size: [film.width, film.height].map(|side| side * args.supersample), fade };
+    let source = Source { stages, size: [film.width, film.height].map(|side| side * args.picture.supersample), fade };
     args.check_of(source.count())?;
     let selected = args.selected(source.count());
-    let mut renderer = renderer(args, progress)?;
+    let mut renderer = renderer(&args.picture, progress)?;
     let adapter = renderer.info().clone();
     let is_clear = film.background == Backdrop::Transparent;
     if is_clear {
@@ -117,7 +117,7 @@ pub fn make(
     let settings = FilmSettings {
         size: [film.width, film.height],
         frames_per_second: film.fps,
-        supersampling: args.supersample,
+        supersampling: args.picture.supersample,
         frames: selected.clone(),
         video,
         encoder: args.encoder()?,

@@ -43,7 +43,7 @@ pub struct RenderArgs {
     #[arg(long = "with", id = "solver", value_enum, default_value_t = Solver::Rapier)]
     solver: Solver,
     /// Draw only the picture at this time of the motion, in the units of the scene, and write it to -o.
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, conflicts_with_all = ["frames", "shard"])]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, conflicts_with_all = ["frames", "shard", "encoder"])]
     at: Option<f64>,
     #[command(flatten)]
     draw: DrawArgs,
@@ -68,7 +68,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
         args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{}", args.solution_name())));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
     let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
-    let stage = shown.stage(&case, args.draw.supersample, &progress)?;
+    let stage = shown.stage(&case, args.draw.picture.supersample, &progress)?;
     let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
     if args.common.json {
         let document =
@@ -112,15 +112,16 @@ impl RenderArgs {
             path.display()
         );
         refuse_existing(path, self.common.force)?;
-        let (stage, scale) = (shown.stage(case, self.draw.supersample, progress)?, case.scales.time);
+        let (stage, scale) = (shown.stage(case, self.draw.picture.supersample, progress)?, case.scales.time);
         ensure!(
             (0.0..=stage.end()).contains(&(time / scale)),
             "--at {time} is not in the motion: it lasts from 0 to {}",
             stage.end() * scale
         );
-        let mut renderer = film::renderer(&self.draw, progress)?;
+        let mut renderer = film::renderer(&self.draw.picture, progress)?;
         let (image, _) = renderer.draw(&stage.frame_at(time / scale))?;
-        let bytes = encode_png(&shrunk(&image, self.draw.supersample)).context("the picture could not be encoded")?;
+        let bytes =
+            encode_png(&shrunk(&image, self.draw.picture.supersample)).context("the picture could not be encoded")?;
         write_atomically(path, |writer| writer.write_all(&bytes))?;
         if self.common.json {
             parameters["at"] = json!(time);

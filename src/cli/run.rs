@@ -128,7 +128,7 @@ pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
     let checked = Checked::new(&case)?;
     progress.say(&checked.verdict_line());
     checked.write_trajectories(&case, &output, "")?;
-    let stage = checked.shown(&case)?.stage(&case, args.draw.supersample, &progress)?;
+    let stage = checked.shown(&case)?.stage(&case, args.draw.picture.supersample, &progress)?;
     let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
     let document = Document::new("run", parameters)
         .with("engine", checked.engine_json())

@@ -29,7 +29,7 @@ pub fn run(args: &RunArgs, story: Option<&Path>) -> anyhow::Result<Verdict> {
         checked.write_trajectories(case, &output, &format!("{}-", number + 1))?;
         passed &= checked.agreement.passed;
         results.push(json!({ "title": case.title, "engine": checked.engine_json(), "agreement": checked.agreement }));
-        stages.push(checked.shown(case)?.stage(case, args.draw.supersample, &progress)?);
+        stages.push(checked.shown(case)?.stage(case, args.draw.picture.supersample, &progress)?);
     }
     let made = film::make(stages, &cases[0].film, &args.draw, &output, &mut progress)?;
     let document = document(parameters, results, &made, &output)?;

@@ -2,6 +2,7 @@
 
 mod analysis;
 mod frames;
+mod gallery;
 mod generated;
 mod input;
 mod pictures;

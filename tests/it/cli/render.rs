@@ -44,6 +44,9 @@ fn a_single_picture_is_drawn_at_any_time_of_the_motion() {
     assert_eq!(image::open(path).unwrap().to_rgba8().dimensions(), (320, 180));
     refused(&still, &["exists", "--force"]);
     refused(&["render", "--at", "10", "-o", "still.jpg"], &[".png"]);
+    for option in ["--encoder=openh264", "--frames=0:1"] {
+        refused(&["render", "--at", "10", option, "-o", "still.png"], &["cannot be used with"]);
+    }
     let late = folder.path().join("late.png");
     refused(&["render", "--with", "exact", "--at", "13", "--t-end", "12", "-o", late.to_str().unwrap()], &["0 to 12"]);
     assert!(!late.exists());
