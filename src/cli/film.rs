@@ -92,25 +92,36 @@ pub fn renderer(args: &PictureArgs, progress: &Progress) -> anyhow::Result<Box<d
     Ok(renderer)
 }
 
+/// Names of the files of a film of `count` frames, or of the part of it that is asked for.
+pub fn file_names(film: &Film, args: &DrawArgs, count: u64) -> Vec<String> {
+    let selected = args.selected(count);
+    let with_film = video(film, selected.as_ref()) == Video::Whole;
+    film::file_names(selected.unwrap_or(0..count), with_film)
+}
+
+/// A film of all frames that are not clear.
+fn video(film: &Film, selected: Option<&Range<u64>>) -> Video {
+    if selected.is_some() || film.background == Backdrop::Transparent { Video::None } else { Video::Whole }
+}
+
 /// Draws the frames of the stages that are missing, one stage after the other, and makes the film.
 pub fn make(
     stages: Vec<Take>,
     film: &Film,
     args: &DrawArgs,
     output: &OutputDir,
+    renderer: &mut dyn Renderer,
     progress: &mut Progress,
 ) -> anyhow::Result<Made> {
     let fade = (FADE * f64::from(film.fps)).ceil() as u64;
     let source = Source { stages, size: [film.width, film.height].map(|side| side * args.picture.supersample), fade };
     args.check_of(source.count())?;
     let selected = args.selected(source.count());
-    let mut renderer = renderer(&args.picture, progress)?;
     let adapter = renderer.info().clone();
-    let is_clear = film.background == Backdrop::Transparent;
-    if is_clear {
+    if film.background == Backdrop::Transparent {
         progress.say("transparent background: frames with alpha and no film, for H.264 has no alpha");
     }
-    let video = if selected.is_some() || is_clear { Video::None } else { Video::Whole };
+    let video = video(film, selected.as_ref());
     if video == Video::Whole && (film.width % 2 == 1 || film.height % 2 == 1) {
         progress.say("film: H.264 needs even sides, so film.mp4 repeats the last column or row of the frames");
     }
@@ -123,7 +134,7 @@ pub fn make(
         encoder: args.encoder()?,
         ..FilmSettings::default()
     };
-    let report = film::produce(&settings, output, renderer.as_mut(), &source, &mut |at| progress.frame(at))?;
+    let report = film::produce(&settings, output, renderer, &source, &mut |at| progress.frame(at))?;
     progress.say(&summary(&report, selected.map(|part| (part, source.count()))));
     Ok(Made { report, adapter })
 }

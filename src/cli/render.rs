@@ -53,10 +53,12 @@ pub struct RenderArgs {
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
     let mut progress = Progress::new(args.common.quiet);
-    let (case, shown) = match &args.trajectory {
-        Some(path) => args.stored(path)?,
-        None => args.computed()?,
+    let (case, stored) = match &args.trajectory {
+        Some(path) => args.stored(path).map(|(case, shown)| (case, Some(shown)))?,
+        None => (args.input.case()?, None),
     };
+    // Computed only after all that can be refused without.
+    let shown = || stored.map_or_else(|| args.computed(&case), Ok);
     let parameters = args.parameters(&case)?;
     if let Some(time) = args.at {
         return args.still(&case, shown, (time, parameters), &progress);
@@ -67,9 +69,11 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
     let directory =
         args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{}", args.solution_name())));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
-    let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
-    let stage = shown.stage(&case, args.draw.picture.supersample, &progress)?;
-    let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
+    let names = film::file_names(&case.film, &args.draw, case.frame_count());
+    let mut renderer = film::renderer(&args.draw.picture, &progress)?;
+    let output = OutputDir::open_for(&directory, &Origin::new("render", parameters.clone()), existing, &names)?;
+    let stage = shown()?.stage(&case, args.draw.picture.supersample, &progress)?;
+    let made = film::make(vec![stage], &case.film, &args.draw, &output, renderer.as_mut(), &mut progress)?;
     if args.common.json {
         let document =
             Document::new("render", parameters).with("frames", made.frames_json()).with("files", json!(output.files()));
@@ -101,7 +105,7 @@ impl RenderArgs {
     fn still(
         &self,
         case: &Case,
-        shown: Shown,
+        shown: impl FnOnce() -> anyhow::Result<Shown>,
         (time, mut parameters): (f64, Value),
         progress: &Progress,
     ) -> anyhow::Result<Verdict> {
@@ -112,7 +116,7 @@ impl RenderArgs {
             path.display()
         );
         refuse_existing(path, self.common.force)?;
-        let (stage, scale) = (shown.stage(case, self.draw.picture.supersample, progress)?, case.scales.time);
+        let (stage, scale) = (shown()?.stage(case, self.draw.picture.supersample, progress)?, case.scales.time);
         ensure!(
             (0.0..=stage.end()).contains(&(time / scale)),
             "--at {time} is not in the motion: it lasts from 0 to {}",
@@ -132,14 +136,12 @@ impl RenderArgs {
         Ok(Verdict::Done)
     }
 
-    fn computed(&self) -> anyhow::Result<(Case, Shown)> {
-        let case = self.input.case()?;
-        let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));
-        let shown = match self.solver {
-            Solver::Exact => Shown::of(&case, &motions::exactly(&case, &start, sampling)?, Solution::Exact)?,
-            Solver::Rapier => Shown::of_engine(&case, &motions::in_engine(&case, &start, sampling)?)?,
-        };
-        Ok((case, shown))
+    fn computed(&self, case: &Case) -> anyhow::Result<Shown> {
+        let (start, sampling) = (motions::start(case)?, motions::film_sampling(case));
+        match self.solver {
+            Solver::Exact => Shown::of(case, &motions::exactly(case, &start, sampling)?, Solution::Exact),
+            Solver::Rapier => Shown::of_engine(case, &motions::in_engine(case, &start, sampling)?),
+        }
     }
 
     fn stored(&self, path: &Path) -> anyhow::Result<(Case, Shown)> {

@@ -59,16 +59,24 @@ impl OutputDir {
     /// if another run has it open; [`StoreError::Damaged`] for an unreadable manifest or journal; and when the directory cannot be
     /// created, read or written.
     pub fn open(root: &Path, origin: &Origin, existing: Existing) -> Result<Self, StoreError> {
+        Self::open_for(root, origin, existing, &[])
+    }
+
+    /// The same for files whose names are known beforehand: if one of them is in the way, nothing is written at all.
+    ///
+    /// # Errors
+    /// Those of [`OutputDir::open`] and [`OutputDir::refuse_foreign`].
+    pub fn open_for(root: &Path, origin: &Origin, existing: Existing, names: &[String]) -> Result<Self, StoreError> {
         create_directory(root)?;
         let lock = lock_directory(root)?;
         let journal_path = root.join(JOURNAL);
-        if existing == Existing::Replace {
-            remove_recorded(root, &journal_path)?;
-        } else if let Some(old) = read_manifest(&root.join(MANIFEST))?
-            && old.origin.sha256() != origin.sha256()
-        {
-            let differences = origin.differences(&old.origin);
-            return Err(StoreError::OtherParameters { path: root.to_owned(), differences });
+        match existing {
+            Existing::Replace => remove_recorded(root, &journal_path)?,
+            Existing::Resume => {
+                refuse_other_parameters(root, origin)?;
+                let known = recorded(&journal_path)?;
+                refuse_foreign(root, names, |name| known.contains(name))?;
+            }
         }
         let manifest = Manifest { origin: origin.clone(), sha256: origin.sha256() };
         write_atomically(&root.join(MANIFEST), |writer| {
@@ -91,6 +99,21 @@ impl OutputDir {
         &self.sha256
     }
 
+    /// Refuses files that [`OutputDir::write`] would refuse, to be asked before they are made.
+    ///
+    /// # Errors
+    /// [`StoreError::Foreign`] if a file this program did not make has one of the names, or that of the directory it belongs in, and may
+    /// not be replaced.
+    pub fn refuse_foreign(&self, names: &[impl AsRef<str>]) -> Result<(), StoreError> {
+        match self.existing {
+            Existing::Replace => Ok(()),
+            Existing::Resume => {
+                let journal = self.journal();
+                refuse_foreign(&self.root, names, |name| journal.knows(name))
+            }
+        }
+    }
+
     /// Writes the file `name` (relative, with `/`) atomically and records it under `key`: what decided its content besides the
     /// parameters of the directory, or nothing.
     ///
@@ -105,11 +128,8 @@ impl OutputDir {
         content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
     ) -> Result<Record, StoreError> {
         check_name(name)?;
+        self.refuse_foreign(&[name])?;
         let path = self.root.join(name);
-        let known = self.journal().knows(name);
-        if !known && self.existing == Existing::Resume && path.exists() {
-            return Err(StoreError::Foreign { path });
-        }
         self.journal().begin(name)?;
         let mut sum = (Sha256::new(), 0);
         write_atomically(&path, |file| {
@@ -211,12 +231,35 @@ fn read_manifest(path: &Path) -> Result<Option<Manifest>, StoreError> {
     Ok(Some(manifest))
 }
 
+fn refuse_other_parameters(root: &Path, origin: &Origin) -> Result<(), StoreError> {
+    match read_manifest(&root.join(MANIFEST))? {
+        Some(old) if old.origin.sha256() != origin.sha256() => {
+            let differences = origin.differences(&old.origin);
+            Err(StoreError::OtherParameters { path: root.to_owned(), differences })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn refuse_foreign(root: &Path, names: &[impl AsRef<str>], is_known: impl Fn(&str) -> bool) -> Result<(), StoreError> {
+    for name in names.iter().map(AsRef::as_ref).filter(|name| !is_known(name)) {
+        let path = root.join(name);
+        let folder = path.parent().filter(|folder| folder.is_file()).map(Path::to_owned);
+        if let Some(path) = folder.or_else(|| path.exists().then_some(path)) {
+            return Err(StoreError::Foreign { path });
+        }
+    }
+    Ok(())
+}
+
+/// Names of the files in the journal, if there is one.
+fn recorded(journal_path: &Path) -> Result<BTreeSet<String>, StoreError> {
+    if journal_path.exists() { journal::names(journal_path) } else { Ok(BTreeSet::new()) }
+}
+
 /// Removes the files an old journal lists, then the journal.
 fn remove_recorded(root: &Path, journal_path: &Path) -> Result<(), StoreError> {
-    if !journal_path.exists() {
-        return Ok(());
-    }
-    let names = journal::names(journal_path)?;
+    let names = recorded(journal_path)?;
     for path in names.iter().map(|name| root.join(name)).chain([journal_path.to_owned()]) {
         match fs::remove_file(&path) {
             Err(source) if source.kind() != io::ErrorKind::NotFound => {

@@ -4,6 +4,7 @@ mod analysis;
 mod frames;
 mod gallery;
 mod generated;
+mod in_the_way;
 mod input;
 mod pictures;
 mod render;

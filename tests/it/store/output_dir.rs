@@ -116,6 +116,36 @@ fn a_file_of_somebody_else_is_not_overwritten_without_force() {
     assert_eq!(fs::read(&path).unwrap(), b"ours");
 }
 
+/// Known beforehand, they are refused before the directory is made this program's own.
+#[test]
+fn files_in_the_way_of_what_will_be_written_are_found_before_anything_is() {
+    let names = ["frames/0.png", "film.mp4"].map(str::to_owned);
+    let open = |root: &Path, existing| OutputDir::open_for(root, &origin(-0.02), existing, &names);
+    for (name, in_the_way) in [("film.mp4", "film.mp4"), ("frames/0.png", "frames/0.png"), ("frames", "frames")] {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, "mine").unwrap();
+        let error = open(place.path(), Existing::Resume).unwrap_err();
+        let StoreError::Foreign { path: found } = &error else { panic!("{error}") };
+        assert_eq!(*found, place.path().join(in_the_way));
+        assert_eq!(names_in(place.path()), [name.split('/').next().unwrap()]);
+        open(place.path(), Existing::Replace).unwrap();
+    }
+    // Files of other names are in nobody's way, nor are those written here before.
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("notes.txt"), "mine").unwrap();
+    open(place.path(), Existing::Resume).unwrap().write("film.mp4", "", |w| w.write_all(b"ours")).unwrap();
+    let again = open(place.path(), Existing::Resume).unwrap();
+    again.refuse_foreign(&["film.mp4", "frames/0.png"]).unwrap();
+    assert!(matches!(again.refuse_foreign(&["film.mp4", "notes.txt"]), Err(StoreError::Foreign { .. })));
+    // A journal that is none of ours is damaged, and nothing is put beside it.
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("outputs.jsonl"), "mine\n").unwrap();
+    assert!(matches!(resume(place.path(), -0.02), Err(StoreError::Damaged { .. })));
+    assert_eq!(names_in(place.path()), ["outputs.jsonl"]);
+}
+
 #[test]
 fn a_changed_truncated_or_missing_file_is_not_trusted() {
     let place = tempfile::tempdir().unwrap();
