@@ -109,7 +109,7 @@ pub struct FilmArgs {
     /// Length of the motion, in the units of the scene.
     #[arg(long, allow_hyphen_values = true)]
     pub t_end: Option<f64>,
-    /// Picture size in pixels.
+    /// Picture size in pixels. H.264 needs even sides: where one is odd, film.mp4 repeats the last column or row.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
     /// Frames per second of film.

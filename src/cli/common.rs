@@ -4,7 +4,7 @@ use anyhow::{Context, ensure};
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct Common {
@@ -31,6 +31,12 @@ impl Common {
         );
         Ok(())
     }
+}
+
+/// Refuses a file that is there already, before anything is computed for it.
+pub fn refuse_existing(path: &Path, force: bool) -> anyhow::Result<()> {
+    ensure!(force || !path.exists(), "{} exists: replace it with --force", path.display());
+    Ok(())
 }
 
 /// The JSON document of a command.

@@ -34,12 +34,24 @@ pub enum EncoderName {
     Ffmpeg,
 }
 
+/// How a picture is drawn.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Drawing")]
-pub struct DrawArgs {
+pub struct PictureArgs {
     /// What draws the frames.
     #[arg(long, value_enum, default_value_t = RendererName::Auto)]
     pub renderer: RendererName,
+    /// Draw frames this many times as wide and high and make them smaller: smoother edges for as much more time, squared.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub supersample: u32,
+}
+
+/// How a film is drawn, and which part of it.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Drawing")]
+pub struct DrawArgs {
+    #[command(flatten)]
+    pub picture: PictureArgs,
     /// Draw the frames from A up to, not including, B only, and no film.
     #[arg(long, value_name = "A:B", value_parser = parse_frames)]
     pub frames: Option<Range<u64>>,
@@ -47,9 +59,6 @@ pub struct DrawArgs {
     /// put together: all frames in one, and its outputs.jsonl followed by the others'.
     #[arg(long, value_name = "K/N", value_parser = parse_shard, conflicts_with = "frames")]
     pub shard: Option<[u64; 2]>,
-    /// Draw frames this many times as wide and high and make them smaller: smoother edges for as much more time, squared.
-    #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
-    pub supersample: u32,
     /// What makes film.mp4 of the frames.
     #[arg(long, value_enum, default_value_t = EncoderName::Openh264)]
     pub encoder: EncoderName,

@@ -1,6 +1,6 @@
 //! Making a film of a motion: shared by `run` and `render`.
 
-use super::draw_args::DrawArgs;
+use super::draw_args::{DrawArgs, PictureArgs};
 use super::progress::Progress;
 use crate::film::{self, FilmReport, FilmSettings, FrameSource, FrameState, SourceError, Video};
 use crate::render::{AdapterInfo, Colour, DrawList, OverlayItem, Rectangle, Renderer};
@@ -85,11 +85,23 @@ pub struct Made {
 }
 
 /// Opens what draws, and says which it is.
-pub fn renderer(args: &DrawArgs, progress: &Progress) -> anyhow::Result<Box<dyn Renderer>> {
+pub fn renderer(args: &PictureArgs, progress: &Progress) -> anyhow::Result<Box<dyn Renderer>> {
     let renderer = crate::render::open(args.renderer.choice())?;
     let adapter = renderer.info();
     progress.say(&format!("renderer: {} ({}): {}", adapter.adapter, adapter.backend, adapter.reason));
     Ok(renderer)
+}
+
+/// Names of the files of a film of `count` frames, or of the part of it that is asked for.
+pub fn file_names(film: &Film, args: &DrawArgs, count: u64) -> Vec<String> {
+    let selected = args.selected(count);
+    let with_film = video(film, selected.as_ref()) == Video::Whole;
+    film::file_names(selected.unwrap_or(0..count), with_film)
+}
+
+/// A film of all frames that are not clear.
+fn video(film: &Film, selected: Option<&Range<u64>>) -> Video {
+    if selected.is_some() || film.background == Backdrop::Transparent { Video::None } else { Video::Whole }
 }
 
 /// Draws the frames of the stages that are missing, one stage after the other, and makes the film.
@@ -98,32 +110,31 @@ pub fn make(
     film: &Film,
     args: &DrawArgs,
     output: &OutputDir,
+    renderer: &mut dyn Renderer,
     progress: &mut Progress,
 ) -> anyhow::Result<Made> {
     let fade = (FADE * f64::from(film.fps)).ceil() as u64;
-    let source = Source { stages, size: [film.width, film.height].map(|side| side * args.supersample), fade };
+    let source = Source { stages, size: [film.width, film.height].map(|side| side * args.picture.supersample), fade };
     args.check_of(source.count())?;
     let selected = args.selected(source.count());
-    let mut renderer = renderer(args, progress)?;
     let adapter = renderer.info().clone();
-    let is_clear = film.background == Backdrop::Transparent;
-    if is_clear {
+    if film.background == Backdrop::Transparent {
         progress.say("transparent background: frames with alpha and no film, for H.264 has no alpha");
     }
-    let video = if selected.is_some() || is_clear { Video::None } else { Video::Whole };
+    let video = video(film, selected.as_ref());
     if video == Video::Whole && (film.width % 2 == 1 || film.height % 2 == 1) {
         progress.say("film: H.264 needs even sides, so film.mp4 repeats the last column or row of the frames");
     }
     let settings = FilmSettings {
         size: [film.width, film.height],
         frames_per_second: film.fps,
-        supersampling: args.supersample,
+        supersampling: args.picture.supersample,
         frames: selected.clone(),
         video,
         encoder: args.encoder()?,
         ..FilmSettings::default()
     };
-    let report = film::produce(&settings, output, renderer.as_mut(), &source, &mut |at| progress.frame(at))?;
+    let report = film::produce(&settings, output, renderer, &source, &mut |at| progress.frame(at))?;
     progress.say(&summary(&report, selected.map(|part| (part, source.count()))));
     Ok(Made { report, adapter })
 }

@@ -1,8 +1,8 @@
-//! `gallery`: a picture and a short loop of every built-in scene, as pages about the program show them.
+//! `gallery`: pictures and short loops of the built-in scenes of the rig and of one disk, as pages about the program show them.
 
 use super::Verdict;
 use super::common::print;
-use super::draw_args::DrawArgs;
+use super::draw_args::PictureArgs;
 use super::film;
 use super::motions;
 use super::progress::Progress;
@@ -34,30 +34,36 @@ const DISK: &str = "disk_forward_wave";
 const DISK_LOOP: u32 = 360;
 const DISK_LOOP_FRAMES: u32 = 18;
 
-/// A picture and a short loop of every built-in scene.
+/// Pictures and short loops for pages about the program: of the built-in scenes of the two-mass rig and of one bladed disk, and the picture
+/// of a coarse engine.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip gallery -o renders/gallery")]
 pub struct GalleryArgs {
-    /// Directory for NAME.png and NAME.gif; files of these names are replaced.
+    /// Directory for NAME.png and NAME.gif (coarse_engine has no loop); files of these names are replaced.
     #[arg(short, long, value_name = "DIRECTORY", default_value = "renders/gallery")]
     output: PathBuf,
-    /// This scene alone.
+    /// What has this name alone.
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// No progress and no logs.
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
-    draw: DrawArgs,
+    draw: PictureArgs,
 }
 
 pub fn run(args: &GalleryArgs) -> anyhow::Result<Verdict> {
     let progress = Progress::new(args.quiet);
-    std::fs::create_dir_all(&args.output).with_context(|| format!("{} cannot be made", args.output.display()))?;
-    let mut renderer = film::renderer(&args.draw, &progress)?;
     let wanted = |name: &str| args.only.as_deref().is_none_or(|only| only == name);
-    let mut names = BUILT_IN.iter().map(|(name, _)| *name).chain([COARSE, DISK]);
-    ensure!(names.any(wanted), "--only {:?} is not in the gallery", args.only.as_deref().unwrap_or_default());
+    let names: Vec<&str> = BUILT_IN.iter().map(|(name, _)| *name).chain([COARSE, DISK]).collect();
+    ensure!(
+        names.iter().copied().any(wanted),
+        "--only {:?} is not in the gallery, which has {}",
+        args.only.as_deref().unwrap_or_default(),
+        names.join(", ")
+    );
+    let mut renderer = film::renderer(&args.draw, &progress)?;
+    std::fs::create_dir_all(&args.output).with_context(|| format!("{} cannot be made", args.output.display()))?;
     for (name, text) in BUILT_IN.into_iter().filter(|(name, _)| wanted(name)) {
         let (_, case) = Scene::parse(text, name)?;
         let path = |extension: &str| args.output.join(format!("{name}.{extension}"));

@@ -1,7 +1,7 @@
 //! `contact-sheet` and `animate`: pictures of a film that is there already, and short loops of it.
 
 use super::Verdict;
-use super::common::print;
+use super::common::{print, refuse_existing};
 use super::draw_args::parse_frames;
 use crate::film::{animated_png, contact_sheet, encode_png, gif, scaled};
 use crate::render::has_transparency;
@@ -28,9 +28,12 @@ pub struct ContactSheetArgs {
     /// Width of each frame in pixels.
     #[arg(long, default_value_t = 480, value_parser = clap::value_parser!(u32).range(16..=3840))]
     width: u32,
-    /// PNG file; contact-sheet.png in the directory without it.
+    /// PNG file; without it contact-sheet.png in the directory, made anew each time.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Replace the file of -o.
+    #[arg(long)]
+    force: bool,
 }
 
 /// A short loop of a film as GIF or animated PNG.
@@ -53,6 +56,9 @@ pub struct AnimateArgs {
     /// File, .gif or .png.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// Replace the file of -o.
+    #[arg(long)]
+    force: bool,
 }
 
 /// A film on disk, as its manifest says.
@@ -91,6 +97,7 @@ fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Verdict> {
 
 pub fn sheet(args: &ContactSheetArgs) -> anyhow::Result<Verdict> {
     let film = Finished::open(&args.directory)?;
+    args.output.iter().try_for_each(|path| refuse_existing(path, args.force))?;
     let (last, count) = (film.frames.len() - 1, (args.count as usize).min(film.frames.len()));
     let number = |n: usize| if count == 1 { 0 } else { n * last / (count - 1) };
     let pictures: Vec<_> = (0..count).map(|n| film.picture(number(n), args.width)).collect::<anyhow::Result<_>>()?;
@@ -103,6 +110,7 @@ pub fn animate(args: &AnimateArgs) -> anyhow::Result<Verdict> {
     let count = film.frames.len();
     let Range { start, end } = args.frames.clone().unwrap_or(0..count as u64);
     ensure!(end <= count as u64, "--frames {start}:{end} is beyond the film: {count} frames are there");
+    refuse_existing(&args.output, args.force)?;
     let numbers = (start as usize..end as usize).step_by(usize::from(args.every));
     let frames: Vec<_> = numbers.map(|n| film.picture(n, args.width)).collect::<anyhow::Result<_>>()?;
     let delay = (args.every, film.frames_per_second);

@@ -1,7 +1,7 @@
 //! `render`: frames and film of a scene or a stored trajectory, without the cross-check.
 
 use super::case_args::SceneArgs;
-use super::common::{Common, Document, print};
+use super::common::{Common, Document, print, refuse_existing};
 use super::draw_args::DrawArgs;
 use super::film;
 use super::progress::Progress;
@@ -43,7 +43,7 @@ pub struct RenderArgs {
     #[arg(long = "with", id = "solver", value_enum, default_value_t = Solver::Rapier)]
     solver: Solver,
     /// Draw only the picture at this time of the motion, in the units of the scene, and write it to -o.
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, conflicts_with_all = ["frames", "shard"])]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, conflicts_with_all = ["frames", "shard", "encoder"])]
     at: Option<f64>,
     #[command(flatten)]
     draw: DrawArgs,
@@ -53,10 +53,12 @@ pub struct RenderArgs {
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
     let mut progress = Progress::new(args.common.quiet);
-    let (case, shown) = match &args.trajectory {
-        Some(path) => args.stored(path)?,
-        None => args.computed()?,
+    let (case, stored) = match &args.trajectory {
+        Some(path) => args.stored(path).map(|(case, shown)| (case, Some(shown)))?,
+        None => (args.input.case()?, None),
     };
+    // Computed only after all that can be refused without.
+    let shown = || stored.map_or_else(|| args.computed(&case), Ok);
     let parameters = args.parameters(&case)?;
     if let Some(time) = args.at {
         return args.still(&case, shown, (time, parameters), &progress);
@@ -67,9 +69,11 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<Verdict> {
     let directory =
         args.common.output.clone().unwrap_or_else(|| default_directory(input, &format!("-{}", args.solution_name())));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
-    let output = OutputDir::open(&directory, &Origin::new("render", parameters.clone()), existing)?;
-    let stage = shown.stage(&case, args.draw.supersample, &progress)?;
-    let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
+    let names = film::file_names(&case.film, &args.draw, case.frame_count());
+    let mut renderer = film::renderer(&args.draw.picture, &progress)?;
+    let output = OutputDir::open_for(&directory, &Origin::new("render", parameters.clone()), existing, &names)?;
+    let stage = shown()?.stage(&case, args.draw.picture.supersample, &progress)?;
+    let made = film::make(vec![stage], &case.film, &args.draw, &output, renderer.as_mut(), &mut progress)?;
     if args.common.json {
         let document =
             Document::new("render", parameters).with("frames", made.frames_json()).with("files", json!(output.files()));
@@ -101,7 +105,7 @@ impl RenderArgs {
     fn still(
         &self,
         case: &Case,
-        shown: Shown,
+        shown: impl FnOnce() -> anyhow::Result<Shown>,
         (time, mut parameters): (f64, Value),
         progress: &Progress,
     ) -> anyhow::Result<Verdict> {
@@ -111,16 +115,17 @@ impl RenderArgs {
             "{} is no PNG file: end its name in .png",
             path.display()
         );
-        ensure!(self.common.force || !path.exists(), "{} exists: replace it with --force", path.display());
-        let (stage, scale) = (shown.stage(case, self.draw.supersample, progress)?, case.scales.time);
+        refuse_existing(path, self.common.force)?;
+        let (stage, scale) = (shown()?.stage(case, self.draw.picture.supersample, progress)?, case.scales.time);
         ensure!(
             (0.0..=stage.end()).contains(&(time / scale)),
             "--at {time} is not in the motion: it lasts from 0 to {}",
             stage.end() * scale
         );
-        let mut renderer = film::renderer(&self.draw, progress)?;
+        let mut renderer = film::renderer(&self.draw.picture, progress)?;
         let (image, _) = renderer.draw(&stage.frame_at(time / scale))?;
-        let bytes = encode_png(&shrunk(&image, self.draw.supersample)).context("the picture could not be encoded")?;
+        let bytes =
+            encode_png(&shrunk(&image, self.draw.picture.supersample)).context("the picture could not be encoded")?;
         write_atomically(path, |writer| writer.write_all(&bytes))?;
         if self.common.json {
             parameters["at"] = json!(time);
@@ -131,14 +136,12 @@ impl RenderArgs {
         Ok(Verdict::Done)
     }
 
-    fn computed(&self) -> anyhow::Result<(Case, Shown)> {
-        let case = self.input.case()?;
-        let (start, sampling) = (motions::start(&case)?, motions::film_sampling(&case));
-        let shown = match self.solver {
-            Solver::Exact => Shown::of(&case, &motions::exactly(&case, &start, sampling)?, Solution::Exact)?,
-            Solver::Rapier => Shown::of_engine(&case, &motions::in_engine(&case, &start, sampling)?)?,
-        };
-        Ok((case, shown))
+    fn computed(&self, case: &Case) -> anyhow::Result<Shown> {
+        let (start, sampling) = (motions::start(case)?, motions::film_sampling(case));
+        match self.solver {
+            Solver::Exact => Shown::of(case, &motions::exactly(case, &start, sampling)?, Solution::Exact),
+            Solver::Rapier => Shown::of_engine(case, &motions::in_engine(case, &start, sampling)?),
+        }
     }
 
     fn stored(&self, path: &Path) -> anyhow::Result<(Case, Shown)> {

@@ -38,6 +38,11 @@ pub struct RunArgs {
     pub common: Common,
 }
 
+/// Where a command writes its JSON document.
+pub const DOCUMENT: &str = "run.json";
+/// The trajectories of a scene: the engine's and the exact one.
+const TABLES: [&str; 2] = ["engine.csv", "exact.csv"];
+
 /// `renders/` and the name of the input with a suffix.
 pub fn default_directory(input: Option<&Path>, suffix: &str) -> PathBuf {
     let name = input.and_then(Path::file_stem).map_or("limit_torus".into(), |stem| stem.to_string_lossy());
@@ -75,18 +80,22 @@ impl Checked {
         Shown::of_engine(case, &self.recording)?.beside(case, &self.exact)
     }
 
-    /// `engine.csv` and `exact.csv`, their names after `prefix`.
+    /// Names of the trajectories, after `prefix`.
+    pub fn table_names(prefix: &str) -> [String; 2] {
+        TABLES.map(|name| format!("{prefix}{name}"))
+    }
+
+    /// The trajectories under [`Checked::table_names`].
     pub fn write_trajectories(&self, case: &Case, output: &OutputDir, prefix: &str) -> anyhow::Result<()> {
         let solver = motions::engine_info(&self.settings).to_string();
-        for (name, trajectory, solver) in
-            [("engine.csv", &self.recording.trajectory, solver.as_str()), ("exact.csv", &self.exact, "exact")]
-        {
+        let trajectories = [(&self.recording.trajectory, solver.as_str()), (&self.exact, "exact")];
+        for (name, (trajectory, solver)) in Self::table_names(prefix).iter().zip(trajectories) {
             let provenance = Provenance { case, solver, parameters: Self::parameters(case) };
             let table = match &case.disk {
                 Some(disk) => filmed::table(disk, trajectory, provenance.metadata(trajectory, &case.scales)?),
                 None => to_table(trajectory, &provenance, &case.scales)?,
             };
-            output.write(&format!("{prefix}{name}"), "", |writer| table.write_to(TableFormat::Csv, writer))?;
+            output.write(name, "", |writer| table.write_to(TableFormat::Csv, writer))?;
         }
         Ok(())
     }
@@ -123,20 +132,23 @@ pub fn run(args: &RunArgs) -> anyhow::Result<Verdict> {
     let parameters = Checked::parameters(&case);
     let directory = args.common.output.clone().unwrap_or_else(|| default_directory(args.input.scene.as_deref(), ""));
     let existing = if args.common.force { Existing::Replace } else { Existing::Resume };
-    let output = OutputDir::open(&directory, &Origin::new("run", parameters.clone()), existing)?;
+    let mut names = film::file_names(&case.film, &args.draw, case.frame_count());
+    names.extend(Checked::table_names("").into_iter().chain([DOCUMENT.to_owned()]));
+    let mut renderer = film::renderer(&args.draw.picture, &progress)?;
+    let output = OutputDir::open_for(&directory, &Origin::new("run", parameters.clone()), existing, &names)?;
 
     let checked = Checked::new(&case)?;
     progress.say(&checked.verdict_line());
     checked.write_trajectories(&case, &output, "")?;
-    let stage = checked.shown(&case)?.stage(&case, args.draw.supersample, &progress)?;
-    let made = film::make(vec![stage], &case.film, &args.draw, &output, &mut progress)?;
+    let stage = checked.shown(&case)?.stage(&case, args.draw.picture.supersample, &progress)?;
+    let made = film::make(vec![stage], &case.film, &args.draw, &output, renderer.as_mut(), &mut progress)?;
     let document = Document::new("run", parameters)
         .with("engine", checked.engine_json())
         .with("agreement", serde_json::to_value(&checked.agreement).context("agreement")?)
         .with("frames", made.frames_json())
-        .with("files", json!(files_with(&output, "run.json")));
+        .with("files", json!(files_with(&output, DOCUMENT)));
     let text = document.text()?;
-    output.write("run.json", "", |writer| writeln!(writer, "{text}"))?;
+    output.write(DOCUMENT, "", |writer| writeln!(writer, "{text}"))?;
     if args.common.json {
         print(&text)?;
     } else {

@@ -9,7 +9,7 @@ use crate::render::AdapterInfo;
 use crate::store::{OutputDir, sha256_hex};
 use serde::Serialize;
 
-const NAME: &str = "frames.json";
+pub(super) const NAME: &str = "frames.json";
 
 #[derive(Serialize)]
 struct Manifest<'a> {

@@ -28,6 +28,7 @@ pub use error::{FilmError, SourceError};
 pub use ffmpeg::Ffmpeg;
 pub use picture::{encode as encode_png, encode_small as encode_small_png};
 pub use pipeline::produce;
+pub use plan::file_names;
 pub use report::{FilmReport, Progress, StageTimes};
 pub use settings::{Encoder, FilmSettings, Video};
 

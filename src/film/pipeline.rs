@@ -31,7 +31,7 @@ struct Job {
 /// Files: `frames/NNNNNN.png`, `frames.json`, and a film as `settings.video` says.
 ///
 /// # Errors
-/// Any [`FilmError`]; frames finished by then are kept and reused by the next call.
+/// Any [`FilmError`]; frames finished by then are kept and reused by the next call. Nothing is drawn if a file of someone else is in the way.
 pub fn produce(
     settings: &FilmSettings,
     output: &OutputDir,
@@ -42,6 +42,7 @@ pub fn produce(
     let start = Instant::now();
     let adapter = renderer.info().clone();
     let mut plan = Plan::new(settings, output, &adapter, source)?;
+    output.refuse_foreign(&plan.file_names())?;
     let reused = plan.finished.range(plan.selected.clone()).count() as u64;
     let frames = plan.selected.end - plan.selected.start;
 

@@ -2,6 +2,7 @@
 
 use super::FrameSource;
 use super::error::FilmError;
+use super::manifest;
 use super::settings::{FilmSettings, Video};
 use super::video::Encoding;
 use crate::render::AdapterInfo;
@@ -11,6 +12,15 @@ use std::ops::Range;
 
 /// SHA-256 of the PNG file of each finished frame.
 pub(super) type Finished = BTreeMap<u64, String>;
+
+/// The film of all frames.
+const FILM: &str = "film.mp4";
+
+/// Names of the files that [`super::produce`] writes for these frames, with the film of all frames or without.
+#[must_use]
+pub fn file_names(frames: Range<u64>, with_film: bool) -> Vec<String> {
+    frames.map(frame_name).chain([manifest::NAME.to_owned()]).chain(with_film.then(|| FILM.to_owned())).collect()
+}
 
 /// Name of a frame's file in the output directory.
 pub(super) fn frame_name(index: u64) -> String {
@@ -59,11 +69,17 @@ impl Plan {
                 let name = format!("film-{:06}-{:06}.mp4", selected.start, selected.end - 1);
                 Some(FilmPlan { name, frames: selected.clone() })
             }
-            Video::Whole | Video::Selected => Some(FilmPlan { name: "film.mp4".to_owned(), frames: 0..count }),
+            Video::Whole | Video::Selected => Some(FilmPlan { name: FILM.to_owned(), frames: 0..count }),
         };
         let complete = |frames: &Range<u64>| frames.clone().all(|i| selected.contains(&i) || finished.contains_key(&i));
         let film = film.filter(|film| complete(&film.frames));
         Ok(Self { selected, frame_key, finished, film })
+    }
+
+    /// Names of the files that are written, or were.
+    pub fn file_names(&self) -> Vec<String> {
+        let film = self.film.as_ref().map(|film| film.name.clone());
+        file_names(self.selected.clone(), false).into_iter().chain(film).collect()
     }
 
     /// Whether no frame has to be drawn.

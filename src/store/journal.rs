@@ -6,7 +6,7 @@
 use super::atomic::read_whole;
 use super::error::StoreError;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Component, Path, PathBuf};
@@ -134,7 +134,7 @@ fn read(path: &Path) -> Result<(Known, u64), StoreError> {
 }
 
 /// Names of all files a journal lists, begun or finished.
-pub(super) fn names(path: &Path) -> Result<Vec<String>, StoreError> {
+pub(super) fn names(path: &Path) -> Result<BTreeSet<String>, StoreError> {
     Ok(read(path)?.0.into_keys().collect())
 }
 

@@ -9,6 +9,7 @@
 mod atomic;
 mod error;
 mod journal;
+mod origin;
 mod output_dir;
 #[cfg(feature = "tables")]
 mod table;
@@ -16,7 +17,8 @@ mod table;
 pub use atomic::{read_whole, remove_leftovers, write_atomically};
 pub use error::StoreError;
 pub use journal::Record;
-pub use output_dir::{Existing, Origin, OutputDir};
+pub use origin::Origin;
+pub use output_dir::{Existing, OutputDir};
 #[cfg(feature = "tables")]
 pub use table::{Column, ColumnData, Table, TableFormat, read_table, write_table};
 

@@ -6,9 +6,9 @@
 use super::atomic::{create_directory, create_temporary, read_whole, remove_leftovers, write_atomically};
 use super::error::StoreError;
 use super::journal::{self, Journal, Record, check_name};
+use super::origin::Origin;
 use super::{hex, sha256_hex};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -28,41 +28,6 @@ pub enum Existing {
     Resume,
     /// Remove the old output this program made, and overwrite files in the way (`--force`).
     Replace,
-}
-
-/// Everything that decides the content of an output directory.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Origin {
-    /// Version of this program: other versions may compute or draw otherwise.
-    pub stickslip: String,
-    pub command: String,
-    pub parameters: Value,
-}
-
-impl Origin {
-    /// This version of the program, running `command` with `parameters`.
-    #[must_use]
-    pub fn new(command: &str, parameters: Value) -> Self {
-        Self { stickslip: env!("CARGO_PKG_VERSION").to_owned(), command: command.to_owned(), parameters }
-    }
-
-    /// SHA-256 of version, command and parameters as JSON with sorted keys and without spaces.
-    #[must_use]
-    pub fn sha256(&self) -> String {
-        let whole = serde_json::json!([self.stickslip, self.command, self.parameters]);
-        sha256_hex(sorted(&whole).to_string().as_bytes())
-    }
-
-    /// Which fields differ, for the reader of an error.
-    fn differences(&self, old: &Self) -> String {
-        let (old, new) = (serde_json::to_value(old), serde_json::to_value(self));
-        let mut found = Vec::new();
-        collect_differences("", &old.unwrap_or_default(), &new.unwrap_or_default(), &mut found);
-        let more = found.len().saturating_sub(4);
-        found.truncate(4);
-        let shown = found.join(", ");
-        if more == 0 { shown } else { format!("{shown} and {more} more") }
-    }
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -94,16 +59,24 @@ impl OutputDir {
     /// if another run has it open; [`StoreError::Damaged`] for an unreadable manifest or journal; and when the directory cannot be
     /// created, read or written.
     pub fn open(root: &Path, origin: &Origin, existing: Existing) -> Result<Self, StoreError> {
+        Self::open_for(root, origin, existing, &[])
+    }
+
+    /// The same for files whose names are known beforehand: if one of them is in the way, nothing is written at all.
+    ///
+    /// # Errors
+    /// Those of [`OutputDir::open`] and [`OutputDir::refuse_foreign`].
+    pub fn open_for(root: &Path, origin: &Origin, existing: Existing, names: &[String]) -> Result<Self, StoreError> {
         create_directory(root)?;
         let lock = lock_directory(root)?;
         let journal_path = root.join(JOURNAL);
-        if existing == Existing::Replace {
-            remove_recorded(root, &journal_path)?;
-        } else if let Some(old) = read_manifest(&root.join(MANIFEST))?
-            && old.origin.sha256() != origin.sha256()
-        {
-            let differences = origin.differences(&old.origin);
-            return Err(StoreError::OtherParameters { path: root.to_owned(), differences });
+        match existing {
+            Existing::Replace => remove_recorded(root, &journal_path)?,
+            Existing::Resume => {
+                refuse_other_parameters(root, origin)?;
+                let known = recorded(&journal_path)?;
+                refuse_foreign(root, names, |name| known.contains(name))?;
+            }
         }
         let manifest = Manifest { origin: origin.clone(), sha256: origin.sha256() };
         write_atomically(&root.join(MANIFEST), |writer| {
@@ -126,6 +99,21 @@ impl OutputDir {
         &self.sha256
     }
 
+    /// Refuses files that [`OutputDir::write`] would refuse, to be asked before they are made.
+    ///
+    /// # Errors
+    /// [`StoreError::Foreign`] if a file this program did not make has one of the names, or that of the directory it belongs in, and may
+    /// not be replaced.
+    pub fn refuse_foreign(&self, names: &[impl AsRef<str>]) -> Result<(), StoreError> {
+        match self.existing {
+            Existing::Replace => Ok(()),
+            Existing::Resume => {
+                let journal = self.journal();
+                refuse_foreign(&self.root, names, |name| journal.knows(name))
+            }
+        }
+    }
+
     /// Writes the file `name` (relative, with `/`) atomically and records it under `key`: what decided its content besides the
     /// parameters of the directory, or nothing.
     ///
@@ -140,11 +128,8 @@ impl OutputDir {
         content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
     ) -> Result<Record, StoreError> {
         check_name(name)?;
+        self.refuse_foreign(&[name])?;
         let path = self.root.join(name);
-        let known = self.journal().knows(name);
-        if !known && self.existing == Existing::Resume && path.exists() {
-            return Err(StoreError::Foreign { path });
-        }
         self.journal().begin(name)?;
         let mut sum = (Sha256::new(), 0);
         write_atomically(&path, |file| {
@@ -246,12 +231,35 @@ fn read_manifest(path: &Path) -> Result<Option<Manifest>, StoreError> {
     Ok(Some(manifest))
 }
 
+fn refuse_other_parameters(root: &Path, origin: &Origin) -> Result<(), StoreError> {
+    match read_manifest(&root.join(MANIFEST))? {
+        Some(old) if old.origin.sha256() != origin.sha256() => {
+            let differences = origin.differences(&old.origin);
+            Err(StoreError::OtherParameters { path: root.to_owned(), differences })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn refuse_foreign(root: &Path, names: &[impl AsRef<str>], is_known: impl Fn(&str) -> bool) -> Result<(), StoreError> {
+    for name in names.iter().map(AsRef::as_ref).filter(|name| !is_known(name)) {
+        let path = root.join(name);
+        let folder = path.parent().filter(|folder| folder.is_file()).map(Path::to_owned);
+        if let Some(path) = folder.or_else(|| path.exists().then_some(path)) {
+            return Err(StoreError::Foreign { path });
+        }
+    }
+    Ok(())
+}
+
+/// Names of the files in the journal, if there is one.
+fn recorded(journal_path: &Path) -> Result<BTreeSet<String>, StoreError> {
+    if journal_path.exists() { journal::names(journal_path) } else { Ok(BTreeSet::new()) }
+}
+
 /// Removes the files an old journal lists, then the journal.
 fn remove_recorded(root: &Path, journal_path: &Path) -> Result<(), StoreError> {
-    if !journal_path.exists() {
-        return Ok(());
-    }
-    let names = journal::names(journal_path)?;
+    let names = recorded(journal_path)?;
     for path in names.iter().map(|name| root.join(name)).chain([journal_path.to_owned()]) {
         match fs::remove_file(&path) {
             Err(source) if source.kind() != io::ErrorKind::NotFound => {
@@ -268,30 +276,4 @@ fn remove_all_leftovers(root: &Path, journal: &Journal) -> Result<(), StoreError
     let mut directories = BTreeSet::from([root.to_owned()]);
     directories.extend(journal.names().filter_map(|name| root.join(name).parent().map(Path::to_owned)));
     directories.iter().try_for_each(|directory| remove_leftovers(directory).map(|_| ()))
-}
-
-/// The same value with the keys of all objects in order, whatever order the JSON library keeps.
-fn sorted(value: &Value) -> Value {
-    match value {
-        Value::Array(items) => items.iter().map(sorted).collect(),
-        Value::Object(map) => {
-            let mut entries: Vec<_> = map.iter().collect();
-            entries.sort_by_key(|(key, _)| *key);
-            entries.into_iter().map(|(key, value)| (key.clone(), sorted(value))).collect()
-        }
-        plain => plain.clone(),
-    }
-}
-
-/// Lines such as `parameters.xi1: -0.02 there, -0.03 now`.
-fn collect_differences(at: &str, old: &Value, new: &Value, found: &mut Vec<String>) {
-    if let (Value::Object(old), Value::Object(new)) = (old, new) {
-        let keys: BTreeSet<_> = old.keys().chain(new.keys()).collect();
-        for key in keys {
-            let at = if at.is_empty() { key.clone() } else { format!("{at}.{key}") };
-            collect_differences(&at, old.get(key).unwrap_or(&Value::Null), new.get(key).unwrap_or(&Value::Null), found);
-        }
-    } else if sorted(old) != sorted(new) {
-        found.push(format!("{at}: {old} there, {new} now"));
-    }
 }

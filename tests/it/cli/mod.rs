@@ -2,8 +2,11 @@
 
 mod analysis;
 mod frames;
+mod gallery;
 mod generated;
+mod in_the_way;
 mod input;
+mod pictures;
 mod render;
 mod run;
 mod simulate;

@@ -44,6 +44,9 @@ fn a_single_picture_is_drawn_at_any_time_of_the_motion() {
     assert_eq!(image::open(path).unwrap().to_rgba8().dimensions(), (320, 180));
     refused(&still, &["exists", "--force"]);
     refused(&["render", "--at", "10", "-o", "still.jpg"], &[".png"]);
+    for option in ["--encoder=openh264", "--frames=0:1"] {
+        refused(&["render", "--at", "10", option, "-o", "still.png"], &["cannot be used with"]);
+    }
     let late = folder.path().join("late.png");
     refused(&["render", "--with", "exact", "--at", "13", "--t-end", "12", "-o", late.to_str().unwrap()], &["0 to 12"]);
     assert!(!late.exists());
@@ -102,5 +105,8 @@ fn odd_sizes_are_those_of_the_pictures_and_the_film_is_even() {
     assert!(told.contains("H.264 needs even sides"), "{told}");
     assert_eq!(size(&film.join("frames/000002.png")), (65, 97));
     assert_eq!(crate::film::mp4::read(&fs::read(film.join("film.mp4")).unwrap()).size, [66, 98]);
+    let help = String::from_utf8(stickslip(&["render", "--help"]).stdout).unwrap();
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("where one is odd, film.mp4 repeats the last column or row"), "{help}");
     refused(&["render", "--size", "63x64"], &["film.width", "width = 63", "from 64 to 7680"]);
 }

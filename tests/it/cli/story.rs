@@ -105,3 +105,27 @@ fn frames_beyond_a_story_whose_motion_ends_early_are_refused_with_the_number_the
     let (code, told) = run(&format!("{}:{}", count - 2, count + 1));
     assert!(code == Some(2) && told.contains(&format!("left it {count} frames")), "{told}");
 }
+
+/// Which parameter of which scene, not the whole story.
+#[test]
+fn a_story_of_other_parameters_is_refused_with_the_field_that_differs() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |title: &str| {
+        format!(
+            "[[scene]]\ntitle = \"{title}\"\n[scene.simulation]\nduration = 2.0\n[scene.film]\nwidth = 64\nheight = 64\nfps = 4\n"
+        )
+    };
+    let (story, output) = (folder.path().join("story.toml"), folder.path().join("film"));
+    fs::write(&story, scene("one") + &scene("two")).unwrap();
+    let args = ["run", "--story", story.to_str().unwrap(), "--renderer", "cpu", "-o", output.to_str().unwrap()];
+    document(&[&args[..], &["--frames", "0:1", "--json"]].concat());
+    let light = stickslip(&[&args[..], &["--theme", "light"]].concat());
+    let told = String::from_utf8_lossy(&light.stderr).into_owned();
+    assert_eq!(light.status.code(), Some(2), "{told}");
+    for number in [0, 1] {
+        let differs = format!("parameters.story[{number}].case.film.theme: \"dark\" there, \"light\" now");
+        assert!(told.contains(&differs), "{told}");
+    }
+    // Two differences of some 70 characters, the directory and the advice.
+    assert!(told.len() < 600, "{} bytes: {told}", told.len());
+}

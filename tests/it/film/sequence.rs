@@ -5,7 +5,7 @@ use crate::small_disk::names_in;
 use std::fs;
 use std::path::Path;
 use stickslip::film::{FilmError, FilmSettings, Video, produce};
-use stickslip::store::{Existing, OutputDir, sha256_hex};
+use stickslip::store::{Existing, OutputDir, StoreError, sha256_hex};
 
 fn frame_path(directory: &Path, index: u64) -> std::path::PathBuf {
     directory.join(format!("frames/{index:06}.png"))
@@ -25,6 +25,24 @@ fn every_frame_is_there_once_and_says_its_index() {
         let image = image::open(frame_path(place.path(), index)).unwrap().to_rgba8();
         assert_eq!(index_of(&image), index);
         assert_eq!(image, picture(SIZE, index));
+    }
+}
+
+/// All names are looked at before the first frame is drawn; those that are not written are in nobody's way.
+#[test]
+fn nothing_is_drawn_while_a_file_of_someone_else_is_in_the_way() {
+    for name in ["film.mp4", "frames.json", "frames/000004.png"] {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, "mine").unwrap();
+        let (result, drawn) = run(place.path(), &settings(), 5, Stop::Never);
+        let error = result.unwrap_err();
+        assert!(matches!(&error, FilmError::Store(StoreError::Foreign { path: found }) if *found == path), "{error}");
+        assert!(drawn.is_empty() && fs::read(&path).unwrap() == b"mine");
+        let part = FilmSettings { frames: Some(0..4), ..settings() };
+        assert_eq!(run(place.path(), &part, 5, Stop::Never).0.is_ok(), name != "frames.json", "{name}");
+        assert_eq!(fs::read(&path).unwrap(), b"mine");
     }
 }
 

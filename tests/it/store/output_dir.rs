@@ -59,6 +59,28 @@ fn output_of_other_parameters_is_refused_and_the_difference_named() {
     assert!(OutputDir::open(place.path(), &other_version, Existing::Resume).is_err());
 }
 
+/// Lists of one length are compared item by item; of others, and of long texts, only the beginning is shown.
+#[test]
+fn differences_within_lists_are_named_and_long_values_cut() {
+    let message = |old: serde_json::Value, new: serde_json::Value| {
+        let place = tempfile::tempdir().unwrap();
+        OutputDir::open(place.path(), &Origin::new("run", old), Existing::Resume).unwrap();
+        let error = OutputDir::open(place.path(), &Origin::new("run", new), Existing::Resume).unwrap_err().to_string();
+        error.split("other parameters: ").nth(1).unwrap().split(". Choose").next().unwrap().to_owned()
+    };
+    let long = "\u{e4}".repeat(5000);
+    let case = |theme: &str| json!({"film": {"theme": theme}, "caption": long});
+    let story = |last: &str| json!({"story": [case("dark"), case("dark"), case(last)]});
+    assert_eq!(message(story("dark"), story("light")), r#"parameters.story[2].film.theme: "dark" there, "light" now"#);
+    // 60 characters, the quotation mark one of them, of two bytes each.
+    let cut = format!("\"{}...", "\u{e4}".repeat(59));
+    assert_eq!(message(json!({"a": long}), json!({"a": 1})), format!("parameters.a: {cut} there, 1 now"));
+    assert_eq!(message(json!({"a": [1, 2]}), json!({"a": [1]})), "parameters.a: [1,2] there, [1] now");
+    let (old, new) =
+        (message(json!({"a": vec![0; 9]}), json!({"a": vec![1; 9]})), "parameters.a[3]: 0 there, 1 now and 5 more");
+    assert!(old.starts_with("parameters.a[0]: 0 there, 1 now, ") && old.ends_with(new), "{old}");
+}
+
 #[test]
 fn force_removes_what_the_old_run_made_and_nothing_else() {
     let place = tempfile::tempdir().unwrap();
@@ -92,6 +114,36 @@ fn a_file_of_somebody_else_is_not_overwritten_without_force() {
     let output = OutputDir::open(place.path(), &origin(-0.02), Existing::Replace).unwrap();
     output.write("report.html", "", |w| w.write_all(b"ours")).unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"ours");
+}
+
+/// Known beforehand, they are refused before the directory is made this program's own.
+#[test]
+fn files_in_the_way_of_what_will_be_written_are_found_before_anything_is() {
+    let names = ["frames/0.png", "film.mp4"].map(str::to_owned);
+    let open = |root: &Path, existing| OutputDir::open_for(root, &origin(-0.02), existing, &names);
+    for (name, in_the_way) in [("film.mp4", "film.mp4"), ("frames/0.png", "frames/0.png"), ("frames", "frames")] {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, "mine").unwrap();
+        let error = open(place.path(), Existing::Resume).unwrap_err();
+        let StoreError::Foreign { path: found } = &error else { panic!("{error}") };
+        assert_eq!(*found, place.path().join(in_the_way));
+        assert_eq!(names_in(place.path()), [name.split('/').next().unwrap()]);
+        open(place.path(), Existing::Replace).unwrap();
+    }
+    // Files of other names are in nobody's way, nor are those written here before.
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("notes.txt"), "mine").unwrap();
+    open(place.path(), Existing::Resume).unwrap().write("film.mp4", "", |w| w.write_all(b"ours")).unwrap();
+    let again = open(place.path(), Existing::Resume).unwrap();
+    again.refuse_foreign(&["film.mp4", "frames/0.png"]).unwrap();
+    assert!(matches!(again.refuse_foreign(&["film.mp4", "notes.txt"]), Err(StoreError::Foreign { .. })));
+    // A journal that is none of ours is damaged, and nothing is put beside it.
+    let place = tempfile::tempdir().unwrap();
+    fs::write(place.path().join("outputs.jsonl"), "mine\n").unwrap();
+    assert!(matches!(resume(place.path(), -0.02), Err(StoreError::Damaged { .. })));
+    assert_eq!(names_in(place.path()), ["outputs.jsonl"]);
 }
 
 #[test]
