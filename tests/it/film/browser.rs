@@ -13,8 +13,8 @@ use stickslip::store::{Existing, OutputDir};
 
 const FILM: [u32; 2] = [1280, 720];
 const COUNT: u64 = 12;
-/// First, middle, last.
-const SHOWN: [u64; 3] = [0, 6, 11];
+/// Middle, last, first: always another than the one before, so that the browser has to show a new picture.
+const SHOWN: [u64; 3] = [6, 11, 0];
 
 /// Says length and size of `film.mp4`, and of each frame in `asked.shown`, sought by its time, the mean colour of a part of it and the ratio
 /// of signal to noise (luma, dB) against each of the `asked.count` stored pictures.
@@ -38,7 +38,13 @@ const load = async index => {
   await picture.decode();
   return pixels(picture);
 };
-const seek = time => new Promise(done => { film.onseeked = done; film.currentTime = time; });
+// "seeked" may come before the new picture: the time of the picture that is shown decides.
+const seek = index => new Promise(done => {
+  const shown = (_, picture) =>
+    Math.abs(picture.mediaTime * asked.rate - index) < 0.5 ? done() : film.requestVideoFrameCallback(shown);
+  film.requestVideoFrameCallback(shown);
+  film.currentTime = (index + 0.5) / asked.rate;
+});
 const noise = (a, b) => {
   let squares = 0;
   for (let i = 0; i < a.length; i += 4) {
@@ -61,7 +67,7 @@ film.onloadeddata = async () => {
     const stored = [], found = { seconds: film.duration, size: [film.videoWidth, film.videoHeight], colours: [], noise: [] };
     for (let index = 0; index < asked.count; index++) stored.push(await load(index));
     for (const index of asked.shown) {
-      await seek((index + 0.5) / asked.rate);
+      await seek(index);
       const shown = pixels(film);
       found.colours.push(mean(shown, asked.part));
       found.noise.push(stored.map(picture => noise(shown, picture)));
