@@ -94,9 +94,12 @@ impl Words {
         let (Some(points), Some(head)) = (points, head) else { return };
         let colour = self.palette.masses[0];
         let mut beside = points[points.len() / 2] + Vec2::new(14.0, 12.0) * self.scale;
-        // In a narrow picture over the arrow rather than cut.
         let name = "forward waves";
-        beside.x = beside.x.min(size[0] as f32 - text_width(name, 12.0 * self.scale, false) - 6.0 * self.scale);
+        let most = size[0] as f32 - text_width(name, 12.0 * self.scale, false) - 6.0 * self.scale;
+        if beside.x > most {
+            // In a narrow picture below the arrow rather than cut.
+            beside = Vec2::new(most, points[0].y + 16.0 * self.scale);
+        }
         out.push(OverlayItem::Line { points, stroke: Stroke { width: 2.4 * self.scale, colour }, clip: None });
         out.push(OverlayItem::Polygon { points: head, fill: colour, clip: None });
         out.push(self.text(beside, Anchor::Left, 12.0, colour, name.to_owned()));

@@ -79,25 +79,33 @@ impl Waves {
             let past = self.points[..known].iter().map(|(time, a)| (*time, a[place]));
             plot.draw_line(past.chain([(now.time, current[index])]), 1.8, colour, out);
             plot.draw_marker(now.time, current[index], colour, out);
-            // At the side of the mark that has room.
-            let pixel = place_of(index);
-            // Where a stronger wave has its name there is no room for another.
-            if self.shown[..place].iter().any(|&other| (place_of(other).y - pixel.y).abs() < 14.0 * plot.scale) {
-                continue;
-            }
-            let has_room = pixel.x < plot.area().max.x - 34.0 * plot.scale;
-            // Where it has to stand over the line, above it.
+        }
+        let places: Vec<(usize, Vec2)> = self.shown.iter().map(|&index| (index, place_of(index))).collect();
+        self.draw_names(places, out);
+        draw_legend(plot, self.colours().map(|(index, colour)| (self.short_name(index), colour)), out);
+    }
+
+    /// The names of waves beside their marks, one above the other where these lie close together.
+    fn draw_names(&self, mut places: Vec<(usize, Vec2)>, out: &mut Vec<OverlayItem>) {
+        let (plot, s) = (&self.plot, self.plot.scale);
+        // From the lowest mark upwards.
+        places.sort_by(|a, b| b.1.y.total_cmp(&a.1.y));
+        let mut room_above = plot.area().max.y;
+        for (index, pixel) in places {
+            // At the side of the mark that has room; where it has to stand over the line, above it.
+            let has_room = pixel.x < plot.area().max.x - 34.0 * s;
             let (side, above, anchor) = if has_room { (9.0, 4.0, Anchor::Left) } else { (-7.0, -8.0, Anchor::Right) };
+            let y = (pixel.y + above * s).min(room_above);
+            room_above = y - 13.0 * s;
             out.push(OverlayItem::Text {
-                position: pixel + Vec2::new(side, above) * plot.scale,
+                position: Vec2::new(pixel.x + side * s, y),
                 anchor,
-                size: 12.0 * plot.scale,
+                size: 12.0 * s,
                 colour: plot.palette.text,
                 bold: true,
                 text: self.short_name(index),
             });
         }
-        draw_legend(plot, self.colours().map(|(index, colour)| (self.short_name(index), colour)), out);
     }
 
     /// The number alone.
