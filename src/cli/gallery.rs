@@ -100,7 +100,8 @@ fn stage(case: &Case, supersample: u32, progress: &Progress) -> anyhow::Result<T
 fn coarse() -> anyhow::Result<Case> {
     let (mut scene, _) = Scene::built_in()?;
     scene.title = "A coarse engine".to_owned();
-    scene.caption = "Velocities at face value, 256 steps a period: white outlines are the exact solution.".to_owned();
+    scene.caption =
+        format!("Velocities at face value, {COARSE_STEPS} steps a period: white outlines are the exact solution.");
     scene.engine.scheme = Scheme::Plain;
     scene.engine.steps_per_period = COARSE_STEPS;
     Ok(scene.checked(COARSE)?)

@@ -116,13 +116,20 @@ impl RenderArgs {
             path.display()
         );
         refuse_existing(path, self.common.force)?;
-        let (stage, scale) = (shown()?.stage(case, self.draw.picture.supersample, progress)?, case.scales.time);
-        ensure!(
-            (0.0..=stage.end()).contains(&(time / scale)),
-            "--at {time} is not in the motion: it lasts from 0 to {}",
-            stage.end() * scale
-        );
+        let scale = case.scales.time;
+        let check = |end: f64| {
+            ensure!(
+                (0.0..=end).contains(&(time / scale)),
+                "--at {time} is not in the motion: it lasts from 0 to {}",
+                end * scale
+            );
+            Ok(())
+        };
+        // Before the motion is computed, and again of the motion, which may have ended early.
+        check(case.duration)?;
         let mut renderer = film::renderer(&self.draw.picture, progress)?;
+        let stage = shown()?.stage(case, self.draw.picture.supersample, progress)?;
+        check(stage.end())?;
         let (image, _) = renderer.draw(&stage.frame_at(time / scale))?;
         let bytes =
             encode_png(&shrunk(&image, self.draw.picture.supersample)).context("the picture could not be encoded")?;

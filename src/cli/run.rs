@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub struct RunArgs {
     #[command(flatten)]
     pub input: SceneArgs,
-    /// Film the scenes of a story one after the other; the built-in one, a minute long, without a file.
+    /// Film the scenes of a story one after the other; the built-in one, about a minute long, without a file.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "xi1", "xi2", "kappa", "gamma", "precision", "joints", "scheme", "substeps", "steps_per_period", "dt", "t_end", "speed"])]
     pub story: Option<Option<PathBuf>>,
     #[command(flatten)]

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The story of the paper in a minute, which comes with the program.
+/// The story of the paper in about a minute, which comes with the program.
 const BUILT_IN: &str = include_str!("../../stories/paper.toml");
 
 /// Scenes in the order in which they are shown. All have pictures of one size and one frame rate.

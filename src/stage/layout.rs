@@ -109,6 +109,12 @@ impl Layout {
         Self { headline: self.headline.max(height.min(most)), ..self }
     }
 
+    /// Lower end of headline and captions.
+    #[must_use]
+    pub fn headline_foot(&self) -> f32 {
+        self.scene.min.y + self.headline
+    }
+
     /// Upper left corner of the status line.
     #[must_use]
     pub fn status(&self) -> Vec2 {
@@ -120,7 +126,7 @@ impl Layout {
     #[must_use]
     pub fn camera(&self, shown: &Shown, [azimuth, elevation]: [f32; 2], zoom: f32, shift: Vec3) -> Camera {
         let [width, height] = self.size.map(|side| side as f32);
-        let (top, bottom) = (self.scene.min.y + self.headline, self.scene.max.y - STATUS * self.scale);
+        let (top, bottom) = (self.headline_foot(), self.scene.max.y - STATUS * self.scale);
         let aspect = (self.scene.max.x - self.scene.min.x) / (bottom - top);
         let towards = Vec3::new(azimuth.sin() * elevation.cos(), elevation.sin(), azimuth.cos() * elevation.cos());
         let right = Vec3::new(azimuth.cos(), 0.0, -azimuth.sin());

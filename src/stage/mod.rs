@@ -31,11 +31,11 @@ use palette::Palette;
 use panels::Panels;
 use rig::RigModel;
 
-/// The shade behind panels and words in a close view: width of its soft edges, height behind headline and status, pixels of a 720 lines
+/// The shade behind panels and words in a close view: width of its soft edges, how far it ends above the foot of the headline and begins above that of the scene, pixels of a 720 lines
 /// high picture; steps of an edge, and its opacity behind words.
 const SCRIM: f32 = 48.0;
-const SCRIM_HEAD: f32 = 80.0;
-const SCRIM_FOOT: f32 = 56.0;
+const SCRIM_HEAD: f32 = 12.0;
+const SCRIM_FOOT: f32 = 76.0;
 const SCRIM_STEPS: u32 = 24;
 const WORDS: f32 = 0.72;
 
@@ -232,7 +232,8 @@ impl Stage {
             });
         };
         let right = if beside { edge.x } else { end.x };
-        let [head, foot] = [SCRIM_HEAD * scale, edge.y - SCRIM_FOOT * scale];
+        // The last line of the caption, and the first of the words above the status, are in the full shade.
+        let [head, foot] = [self.layout.headline_foot() - SCRIM_HEAD * scale, edge.y - SCRIM_FOOT * scale];
         let soft = SCRIM * scale;
         for n in 0..SCRIM_STEPS {
             let (from, to) = (n as f32 / SCRIM_STEPS as f32, (n + 1) as f32 / SCRIM_STEPS as f32);

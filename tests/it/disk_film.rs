@@ -452,7 +452,7 @@ fn the_bars_of_the_ledger_are_on_the_scale_of_its_marks() {
             let rounding = 0.0006 * pixels;
             assert!((bar - pixels * value.abs() as f32).abs() < rounding + 0.01, "frame {index}: {bar} for {value}");
         }
-        // The scale forgets within 100 time units, longer than this film: at least 1/e of the 41 pixels there are.
+        // A past bar counts 1/e after 100 time units, longer than this film: at least 1/e of the 41 pixels there are.
         assert!(bars.iter().copied().fold(0.0, f32::max) > 14.0, "{bars:?}");
     }
 }

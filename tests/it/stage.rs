@@ -365,29 +365,33 @@ fn no_word_is_cut_off_or_written_over_another() {
 /// has a row of its own there.
 #[test]
 fn the_rows_of_the_ledger_add_up() {
-    let (_, text) = stickslip::scene::BUILT_IN.iter().find(|(name, _)| *name == "hysteresis").unwrap();
-    let (_, case) = Scene::parse(text, "hysteresis").unwrap();
-    let rig = TwoMassRig::new(case.parameters).unwrap();
-    let motion = case.prescribed.unwrap();
-    let flow = stickslip::exact::PrescribedFlow::new(rig.chain(), motion).unwrap();
-    let start = State::two_mass([0.0, 0.0, motion.velocity(0.0), 0.0, 0.0]);
-    let trajectory = flow.trajectory(&start, Sampling { interval: INTERVAL, t_end: case.duration }).unwrap();
-    let stage = Stage::new(case.clone(), Motion::new(&trajectory).unwrap(), Beside::default());
-    let list = stage.frame(stage.frame_count() - 1);
-    let place = case.panels().iter().position(|panel| *panel == Panel::Energy).unwrap();
-    let numbers: Vec<f64> = panels(&list)[place]
-        .iter()
-        .filter_map(|item| match item {
-            OverlayItem::Text { anchor: Anchor::Right, text, .. } => number(text),
-            _ => None,
-        })
-        .collect();
-    // The rig of this scene has neither self-excitation nor damping.
-    let [drive, friction, stored, residual] = numbers[..] else { panic!("{numbers:?}") };
-    // Three roundings to three digits.
-    assert!((stored - drive - friction - residual).abs() < 0.0026, "{numbers:?}");
-    // The area of the loop times gamma: 4 (a - 1) gamma = 2 for a = 2, gamma = 0.5.
-    assert!((friction + 2.0).abs() < 0.002, "{friction}");
+    // The rig of the scene has neither self-excitation nor damping; with xi1 alone it has both, the coupling damper being (xi2 - xi1)/2.
+    for (xi1, rows) in [(0.0, 4), (0.05, 6)] {
+        let (_, text) = stickslip::scene::BUILT_IN.iter().find(|(name, _)| *name == "hysteresis").unwrap();
+        let (_, mut case) = Scene::parse(text, "hysteresis").unwrap();
+        case.parameters.xi1 = xi1;
+        let rig = TwoMassRig::new(case.parameters).unwrap();
+        let motion = case.prescribed.unwrap();
+        let flow = stickslip::exact::PrescribedFlow::new(rig.chain(), motion).unwrap();
+        let start = State::two_mass([0.0, 0.0, motion.velocity(0.0), 0.0, 0.0]);
+        let trajectory = flow.trajectory(&start, Sampling { interval: INTERVAL, t_end: case.duration }).unwrap();
+        let stage = Stage::new(case.clone(), Motion::new(&trajectory).unwrap(), Beside::default());
+        let list = stage.frame(stage.frame_count() - 1);
+        let place = case.panels().iter().position(|panel| *panel == Panel::Energy).unwrap();
+        let numbers: Vec<f64> = panels(&list)[place]
+            .iter()
+            .filter_map(|item| match item {
+                OverlayItem::Text { anchor: Anchor::Right, text, .. } => number(text),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(numbers.len(), rows, "{numbers:?}");
+        let [works @ .., stored, residual] = &numbers[..] else { panic!("{numbers:?}") };
+        // Five roundings to three digits at most.
+        assert!((stored - works.iter().sum::<f64>() - residual).abs() < 0.0026, "{numbers:?}");
+        // The area of the loop times gamma: 4 (a - 1) gamma = 2 for a = 2, gamma = 0.5.
+        assert!((works.last().unwrap() + 2.0).abs() < 0.002, "{numbers:?}");
+    }
 }
 
 #[test]

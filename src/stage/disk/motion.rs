@@ -133,10 +133,13 @@ impl DiskMotion {
     pub fn slipped(&self, from: f64, to: f64) -> Vec<bool> {
         // Samples alone: between them force and place are interpolated differently, which looks like slip.
         let instants: Vec<&DiskInstant> = self.between(from, to, usize::MAX).collect();
+        // Largest less smallest: as much for slow slip in many samples as for fast slip between two.
         let moved = |(number, element): (usize, &JenkinsElement)| {
             let reach = element.slip_force / element.stiffness;
             let rest = |i: &DiskInstant| element.attachment.elongation(&i.positions) - reach * i.slider_forces[number];
-            instants.windows(2).any(|pair| (rest(pair[1]) - rest(pair[0])).abs() > LEAST_SLIP * reach)
+            let ends = |ends: [f64; 2], x: f64| [ends[0].min(x), ends[1].max(x)];
+            let [least, most] = instants.iter().map(|i| rest(i)).fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+            most - least > LEAST_SLIP * reach
         };
         self.elements.iter().enumerate().map(moved).collect()
     }

@@ -1,5 +1,5 @@
 //! The plane of the slow amplitudes: a limit cycle is a point in it, a torus a closed loop, chaos a tangle. It runs one period late: the
-//! smooth amplitude between two turning points takes the next ones as well.
+//! smooth amplitude between two turning points takes the two next ones as well, which follow in about a period.
 
 use super::{FADES, Frame, Quantity};
 use crate::model::Scales;
@@ -9,7 +9,7 @@ use crate::stage::motion::Instant;
 use crate::stage::plot::{Axis, Plot};
 use std::f64::consts::TAU;
 
-/// A period of the sticking in-phase mode: two turning points follow in it.
+/// A period of the sticking in-phase mode; with slip turning points are a little farther apart.
 const DELAY: f64 = TAU;
 /// Length of the bright part of the trail, non-dimensional time units: slow amplitudes take some 80 for a round.
 const BRIGHT: f64 = 60.0;

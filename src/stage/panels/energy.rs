@@ -34,11 +34,11 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Where a mass is moved from outside there is a drive, and what the rig has not got is no row.
+    /// Where a mass is moved from outside there is a drive, and what the rig has not got is no row: the coupling damper is (xi2 - xi1)/2.
     pub fn of(case: &Case) -> Self {
         let drive = case.prescribed.is_some();
         let RigParameters { xi1, xi2, .. } = case.parameters;
-        Self { drive, excitation: !drive || xi1 != 0.0, damping: !drive || xi2 != 0.0 }
+        Self { drive, excitation: !drive || xi1 != 0.0, damping: !drive || xi1 != xi2 }
     }
 }
 
@@ -86,6 +86,9 @@ impl Energy {
     }
 
     pub fn draw(&self, motion: &Motion, now: &Instant, out: &mut Vec<OverlayItem>) {
-        self.bars.draw(self.entries(motion, now), self.full.at(now.time), out);
+        let entries = self.entries(motion, now);
+        // Between the instants the scale knows a bar may be longer.
+        let full = self.full.at(now.time).max(largest(&entries));
+        self.bars.draw(entries, full, out);
     }
 }

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-/// Time after which a large bar is forgotten, non-dimensional: a little longer than a beat of the slow amplitudes.
+/// Time in which a past bar falls to 1/e, non-dimensional: a little longer than a beat of the slow amplitudes.
 const MEMORY: f64 = 100.0;
 /// The smallest scale, as a part of the largest: before anything happened there is nothing to scale with.
 const LEAST: f64 = 0.01;

@@ -42,6 +42,9 @@ impl Ledger {
     }
 
     pub fn draw(&self, motion: &DiskMotion, now: &DiskInstant, out: &mut Vec<OverlayItem>) {
-        self.bars.draw(self.entries(motion, now), self.full.at(now.time), out);
+        let entries = self.entries(motion, now);
+        // Between the instants the scale knows a bar may be longer.
+        let full = self.full.at(now.time).max(largest(&entries));
+        self.bars.draw(entries, full, out);
     }
 }
