@@ -7,26 +7,6 @@ use clap::{Args, ValueEnum};
 use std::ops::Range;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum RendererName {
-    /// A hardware adapter if there is one, otherwise the CPU rasteriser.
-    Auto,
-    /// The built-in CPU rasteriser.
-    Cpu,
-    /// A hardware adapter, Vulkan or GL (Metal, Direct3D).
-    Gpu,
-    /// A hardware adapter through Vulkan.
-    Vulkan,
-    /// A hardware adapter through OpenGL.
-    Gl,
-    /// A graphics driver that draws in software, such as lavapipe or llvmpipe.
-    Software,
-    /// The same, through Vulkan.
-    SoftwareVulkan,
-    /// The same, through OpenGL.
-    SoftwareGl,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum EncoderName {
     /// The built-in one.
     Openh264,
@@ -39,8 +19,8 @@ pub enum EncoderName {
 #[command(next_help_heading = "Drawing")]
 pub struct PictureArgs {
     /// What draws the frames.
-    #[arg(long, value_enum, default_value_t = RendererName::Auto)]
-    pub renderer: RendererName,
+    #[arg(long, value_enum, default_value_t = RendererChoice::Auto)]
+    pub renderer: RendererChoice,
     /// Draw frames this many times as wide and high and make them smaller: smoother edges for as much more time, squared.
     #[arg(long, value_name = "FACTOR", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=4))]
     pub supersample: u32,
@@ -114,20 +94,5 @@ impl DrawArgs {
             EncoderName::Openh264 => Encoder::OpenH264,
             EncoderName::Ffmpeg => Encoder::Ffmpeg(Ffmpeg::find()?),
         })
-    }
-}
-
-impl RendererName {
-    pub fn choice(self) -> RendererChoice {
-        match self {
-            Self::Auto => RendererChoice::Auto,
-            Self::Cpu => RendererChoice::Cpu,
-            Self::Gpu => RendererChoice::Gpu,
-            Self::Vulkan => RendererChoice::Vulkan,
-            Self::Gl => RendererChoice::Gl,
-            Self::Software => RendererChoice::Software,
-            Self::SoftwareVulkan => RendererChoice::SoftwareVulkan,
-            Self::SoftwareGl => RendererChoice::SoftwareGl,
-        }
     }
 }

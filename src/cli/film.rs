@@ -86,7 +86,7 @@ pub struct Made {
 
 /// Opens what draws, and says which it is.
 pub fn renderer(args: &PictureArgs, progress: &Progress) -> anyhow::Result<Box<dyn Renderer>> {
-    let renderer = crate::render::open(args.renderer.choice())?;
+    let renderer = crate::render::open(args.renderer)?;
     let adapter = renderer.info();
     progress.say(&format!("renderer: {} ({}): {}", adapter.adapter, adapter.backend, adapter.reason));
     Ok(renderer)

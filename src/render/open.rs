@@ -10,13 +10,14 @@ use std::time::Duration;
 
 /// What to draw with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum RendererChoice {
     /// A graphics card if there is one, otherwise the built-in rasteriser.
     #[default]
     Auto,
     /// The built-in rasteriser: runs anywhere, the same bytes on every machine.
     Cpu,
-    /// A graphics card, whatever its interface.
+    /// A graphics card, whatever its interface: Vulkan or OpenGL (Metal, Direct3D).
     Gpu,
     /// A graphics card through Vulkan.
     Vulkan,
