@@ -42,6 +42,8 @@
 
 #![forbid(unsafe_code)]
 #![warn(missing_debug_implementations)]
+// Streams that cannot be written must not panic: the command line alone prints, see `cli`.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod averaging;
 pub mod chaos;

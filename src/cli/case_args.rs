@@ -27,19 +27,19 @@ pub struct RigArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Engine")]
 pub struct EngineArgs {
-    /// f64 or f32.
+    /// f64 or f32; as the scene says, f64 where it does not.
     #[arg(long, value_parser = parse_serde::<Precision>)]
     pub precision: Option<Precision>,
-    /// impulse or multibody.
+    /// impulse or multibody; as the scene says, impulse where it does not.
     #[arg(long, value_parser = parse_serde::<Joints>)]
     pub joints: Option<Joints>,
-    /// second_order or plain.
+    /// averaged_friction, second_order or plain; as the scene says, averaged_friction where it does not.
     #[arg(long, value_parser = parse_serde::<Scheme>)]
     pub scheme: Option<Scheme>,
-    /// Solver iterations per step.
+    /// Solver iterations per step; as the scene says, 1 where it does not.
     #[arg(long)]
     pub substeps: Option<usize>,
-    /// Steps per period of the sticking in-phase mode.
+    /// Steps per period of the sticking in-phase mode; as the scene says, 4096 where it does not.
     #[arg(long, allow_hyphen_values = true)]
     pub steps_per_period: Option<f64>,
     /// Length of a step, in place of --steps-per-period.

@@ -1,6 +1,7 @@
 //! The command line: one file per command. The only place that prints.
 
 mod analysis;
+mod arguments;
 mod branch;
 mod case_args;
 mod common;
@@ -14,6 +15,7 @@ mod film;
 mod gallery;
 mod generate;
 mod hopf;
+mod licences;
 mod lyapunov;
 mod modes;
 mod motions;
@@ -29,11 +31,13 @@ mod shown;
 mod simulate;
 mod slow_flow;
 mod story;
+mod streams;
 mod sweep;
 mod trajectory_table;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
+use streams::{legible, tell};
 use tracing_subscriber::EnvFilter;
 
 /// Self-excited, friction-damped oscillators: exact solution, Rapier simulation, cross-check and film.
@@ -42,11 +46,19 @@ use tracing_subscriber::EnvFilter;
     name = "stickslip",
     version,
     max_term_width = 110,
-    after_help = "Example:\n  stickslip run        the main job with the built-in scene, into renders/limit_torus"
+    arg_required_else_help = true,
+    args_conflicts_with_subcommands = true,
+    after_help = "Exit status: 0 done; 1 done, but a check or comparison failed; 2 bad input, or it could not run. A reader of the output that has \
+                  gone away changes nothing. Output that cannot be written for another reason is exit status 2. News and messages that cannot be \
+                  written are lost.\n\n\
+                  Example:\n  stickslip run        the main job with the built-in scene, into renders/limit_torus"
 )]
 struct Cli {
+    /// Print the licences of what is in this program.
+    #[arg(long)]
+    licences: bool,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -97,39 +109,47 @@ fn message(error: &anyhow::Error) -> String {
 /// Parses the command line, runs the command and returns its exit status: 0 done, 1 a check failed, 2 bad input or could not run.
 #[must_use]
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match arguments::read() {
+        Ok(cli) => cli,
+        Err(status) => return status,
+    };
     // wgpu's back ends log what they try and do not find; the choice of adapter is reported by ourselves.
     let filter = EnvFilter::try_from_default_env()
         .unwrap_or_else(|_| EnvFilter::new("warn,wgpu_core=off,wgpu_hal=off,wgpu=off,naga=off"));
-    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
-    let result = match cli.command {
-        Command::Run(args) => run::run(&args),
-        Command::Simulate(args) => simulate::run(&args),
-        Command::Render(args) => render::run(&args),
-        Command::ContactSheet(args) => pictures::sheet(&args),
-        Command::Animate(args) => pictures::animate(&args),
-        Command::Gallery(args) => gallery::run(&args),
-        Command::Orbit(args) => orbit::run(&args),
-        Command::Branch(args) => branch::run(&args),
-        Command::Hopf(args) => hopf::run(&args),
-        Command::Lyapunov(args) => lyapunov::run(&args),
-        Command::Poincare(args) => poincare::run(&args),
-        Command::Diagram(args) => diagram::run(&args),
-        Command::Conformance(args) => conformance::run(&args),
-        Command::SlowFlow(args) => slow_flow::run(&args),
-        Command::Paper(args) => paper::run(&args),
-        Command::Modes(args) => modes::run(&args),
-        Command::Disk(args) => disk::run(&args),
-        Command::Schema(args) => generate::schema(&args),
-        Command::Completions(args) => generate::completions(&args),
-        Command::Man => generate::man(),
-    };
-    match result {
+    // A log that cannot be written is lost: the subscriber would say so on standard error, and panic.
+    let logs = tracing_subscriber::fmt().log_internal_errors(false);
+    logs.with_env_filter(filter).with_writer(std::io::stderr).init();
+    match cli.command.as_ref().map_or_else(licences::run, run) {
         Ok(Verdict::Done) => ExitCode::SUCCESS,
         Ok(Verdict::Failed) => ExitCode::from(1),
         Err(error) => {
-            eprintln!("error: {}", message(&error));
+            tell(&format!("error: {}", legible(&message(&error))));
             ExitCode::from(2)
         }
+    }
+}
+
+fn run(command: &Command) -> anyhow::Result<Verdict> {
+    match command {
+        Command::Run(args) => run::run(args),
+        Command::Simulate(args) => simulate::run(args),
+        Command::Render(args) => render::run(args),
+        Command::ContactSheet(args) => pictures::sheet(args),
+        Command::Animate(args) => pictures::animate(args),
+        Command::Gallery(args) => gallery::run(args),
+        Command::Orbit(args) => orbit::run(args),
+        Command::Branch(args) => branch::run(args),
+        Command::Hopf(args) => hopf::run(args),
+        Command::Lyapunov(args) => lyapunov::run(args),
+        Command::Poincare(args) => poincare::run(args),
+        Command::Diagram(args) => diagram::run(args),
+        Command::Conformance(args) => conformance::run(args),
+        Command::SlowFlow(args) => slow_flow::run(args),
+        Command::Paper(args) => paper::run(args),
+        Command::Modes(args) => modes::run(args),
+        Command::Disk(args) => disk::run(args),
+        Command::Schema(args) => generate::schema(args),
+        Command::Completions(args) => generate::completions(args),
+        Command::Man => generate::man(),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Verdict;
 use super::common::{Common, Document, print};
+use super::streams::tell;
 use crate::model::RigParameters;
 use crate::paper::{Case, Effort, ITEMS, ItemResult, News, PaperItem, run as run_items, select, stored, write_index};
 use crate::store::{Existing, Origin, OutputDir};
@@ -67,7 +68,7 @@ fn say(args: &PaperArgs, news: News<'_>) {
     }
     let state = if news.reused { "kept" } else { "done" };
     let failed = if news.result.passed { "" } else { ", a check FAILED" };
-    eprintln!("paper: {} {state} ({} of {}){failed}", news.result.id, news.done, news.all);
+    tell(&format!("paper: {} {state} ({} of {}){failed}", news.result.id, news.done, news.all));
 }
 
 /// What was asked for, and what earlier runs left.

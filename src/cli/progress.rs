@@ -1,5 +1,6 @@
 //! Progress on standard error: a bar on a terminal, a plain line now and then elsewhere, nothing with `-q`.
 
+use super::streams::tell;
 use crate::film;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -31,8 +32,8 @@ impl Progress {
     /// One line of news.
     pub fn say(&self, line: &str) {
         match self {
-            Self::Bar(bar) => bar.suspend(|| eprintln!("{line}")),
-            Self::Plain { .. } => eprintln!("{line}"),
+            Self::Bar(bar) => bar.suspend(|| tell(line)),
+            Self::Plain { .. } => tell(line),
             Self::Silent => {}
         }
     }
@@ -48,7 +49,7 @@ impl Progress {
             }
             Self::Plain { last } => {
                 if at.done == at.total || last.is_none_or(|last| last.elapsed() >= HEARTBEAT) {
-                    eprintln!("film: {} of {} frames ({} reused)", at.done, at.total, at.reused);
+                    tell(&format!("film: {} of {} frames ({} reused)", at.done, at.total, at.reused));
                     *last = Some(Instant::now());
                 }
             }
@@ -73,7 +74,7 @@ impl Heartbeat {
     pub fn at(&self, done: usize, all: usize) {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         if !self.quiet && last.elapsed() >= HEARTBEAT {
-            eprintln!("{}: {done} of {all} {}", self.what, self.unit);
+            tell(&format!("{}: {done} of {all} {}", self.what, self.unit));
             *last = Instant::now();
         }
     }

@@ -30,6 +30,7 @@ mod registry;
 mod row;
 mod scenario;
 mod scenarios;
+pub mod slider_body;
 pub mod slider_map;
 mod switching;
 mod theory;

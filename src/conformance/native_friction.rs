@@ -100,51 +100,88 @@ pub struct Hysteresis {
 /// Loop area that the element should have.
 pub const EXACT_LOOP_AREA: f64 = 4.0 * (AMPLITUDE - 1.0);
 
-/// # Errors
-/// Whatever stops the engine. The step is rounded to a whole number of steps per cycle.
-pub fn hysteresis(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Hysteresis, ConformanceError> {
+/// A point of a driven motion: position of the carriage, of the slider, and the force in the element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Driven {
+    pub x: f64,
+    pub slider: f64,
+    pub force: f64,
+}
+
+/// The same settings with a whole number of steps per cycle, and that number.
+fn whole(settings: EngineSettings) -> (EngineSettings, u64) {
     let steps = (TAU / settings.step).round();
-    let settings = EngineSettings { step: TAU / steps, ..settings };
-    let steps = steps as u64;
-    let drive = Drive::Prescribed(PrescribedMotion { amplitude: AMPLITUDE, angular_frequency: 1.0 });
+    (EngineSettings { step: TAU / steps, ..settings }, steps as u64)
+}
+
+const PRESCRIBED: PrescribedMotion = PrescribedMotion { amplitude: AMPLITUDE, angular_frequency: 1.0 };
+
+/// In the engine.
+///
+/// # Errors
+/// Whatever stops it. The step is rounded to a whole number of steps per cycle.
+pub fn hysteresis(bench: &dyn Bench, making: Making, settings: EngineSettings) -> Result<Hysteresis, ConformanceError> {
+    let (settings, steps) = whole(settings);
     let start = MechanismSample::single(0.0, AMPLITUDE);
-    let motion = making.oscillator(bench, settings, 1.0, drive)?.run(&start, CYCLES * steps, 1)?;
-    // From the lower reversal before the last cycle, where the force is -1, on.
-    let first = ((CYCLES - 1) * steps - steps / 4) as usize;
-    let cycle = &motion.samples[first..first + steps as usize];
-    let x: Vec<f64> = cycle.iter().map(|sample| sample.positions[0]).collect();
-    let (s, f): (Vec<f64>, Vec<f64>) =
-        cycle.iter().filter_map(|sample| sample.slider).map(|slider| (slider.position, slider.force)).unzip();
-    let next = |values: &[f64], n: usize| values[(n + 1) % values.len()];
-    let loop_area = (0..x.len()).map(|n| 0.5 * (f[n] + next(&f, n)) * (next(&x, n) - x[n])).sum();
-    let largest_force = f.iter().fold(0.0, |largest: f64, force| largest.max(force.abs()));
-    let half = x.len() / 2;
-    // Rising from -a, the force reaches +R after the way 2 R/kt.
-    let corner = 2.0 - AMPLITUDE;
-    let phase = |time: f64| (time + FRAC_PI_2) / settings.step;
-    let slip_from = phase((corner / AMPLITUDE).asin());
-    let late = &f[(0.5 * (slip_from + half as f64)) as usize..half];
-    let mean = late.iter().sum::<f64>() / late.len() as f64;
-    let slip_force =
-        [mean, late.iter().copied().fold(f64::MAX, f64::min), late.iter().copied().fold(f64::MIN, f64::max)];
-    let speed = |n: usize| (s[n + 1] - s[n]) / settings.step;
-    let starts = |n: &usize| speed(*n) > 0.5 * (x[n + 1] - x[*n]) / settings.step && speed(*n) > STOPPED * AMPLITUDE;
-    let start = (1..half - 1).find(starts);
-    let stop = start.and_then(|start| {
-        let runs = |n: &usize| speed(*n) > STOPPED * AMPLITUDE;
-        (start..cycle.len() - 1).take_while(|n| *n < half + half / 2).filter(runs).last()
-    });
-    // The carriage itself is slower than the threshold this long before its reversal.
-    let exact_stop = half as f64 - STOPPED.asin() / settings.step;
-    let offset = phase(cycle[0].time - TAU * (CYCLES - 1) as f64);
-    let delay = |n: Option<usize>, lead: f64, exact: f64| n.map(|n| (n as f64 + lead + offset - exact) * settings.step);
-    Ok(Hysteresis {
-        loop_area,
-        slip_force,
-        largest_force,
-        slip_start_delay: delay(start, 0.0, slip_from),
-        slip_stop_delay: delay(stop, 1.0, exact_stop),
-    })
+    let flow = making.oscillator(bench, settings, 1.0, Drive::Prescribed(PRESCRIBED))?;
+    let motion = flow.run(&start, CYCLES * steps, 1)?;
+    let point = |sample: &MechanismSample| {
+        let slider = sample.slider?;
+        Some(Driven { x: sample.positions[0], slider: slider.position, force: slider.force })
+    };
+    Ok(Hysteresis::of(&motion.samples.iter().filter_map(point).collect::<Vec<_>>(), settings.step))
+}
+
+/// By the difference equation, where one is known. The step is rounded as in [`hysteresis`].
+///
+/// # Errors
+/// [`ConformanceError`] if the oscillator cannot be built.
+pub fn predicted_hysteresis(making: Making, settings: EngineSettings) -> Result<Option<Hysteresis>, ConformanceError> {
+    let (settings, steps) = whole(settings);
+    let chain = ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0).build()?;
+    let map = SliderMap { chain: &chain, stiffness: 1.0, slip_force: 1.0, making, settings };
+    Ok(map.driven(PRESCRIBED, CYCLES * steps).map(|points| Hysteresis::of(&points, settings.step)))
+}
+
+impl Hysteresis {
+    /// Of the last of [`CYCLES`] cycles from time 0 on, a point per step.
+    fn of(points: &[Driven], step: f64) -> Self {
+        let steps = (TAU / step).round() as u64;
+        // From the lower reversal before the last cycle, where the force is -1, on.
+        let first = ((CYCLES - 1) * steps - steps / 4) as usize;
+        let cycle = &points[first..first + steps as usize];
+        let next = |n: usize| cycle[(n + 1) % cycle.len()];
+        let area = |n: usize| 0.5 * (cycle[n].force + next(n).force) * (next(n).x - cycle[n].x);
+        let half = cycle.len() / 2;
+        // Rising from -a, the force reaches +R after the way 2 R/kt.
+        let corner = 2.0 - AMPLITUDE;
+        let phase = |time: f64| (time + FRAC_PI_2) / step;
+        let slip_from = phase((corner / AMPLITUDE).asin());
+        let late: Vec<f64> =
+            cycle[(0.5 * (slip_from + half as f64)) as usize..half].iter().map(|point| point.force).collect();
+        let mean = late.iter().sum::<f64>() / late.len() as f64;
+        let slip_force =
+            [mean, late.iter().copied().fold(f64::MAX, f64::min), late.iter().copied().fold(f64::MIN, f64::max)];
+        let speed = |n: usize| (cycle[n + 1].slider - cycle[n].slider) / step;
+        let starts =
+            |n: &usize| speed(*n) > 0.5 * (cycle[n + 1].x - cycle[*n].x) / step && speed(*n) > STOPPED * AMPLITUDE;
+        let start = (1..half - 1).find(starts);
+        let stop = start.and_then(|start| {
+            let runs = |n: &usize| speed(*n) > STOPPED * AMPLITUDE;
+            (start..cycle.len() - 1).take_while(|n| *n < half + half / 2).filter(runs).last()
+        });
+        // The carriage itself is slower than the threshold this long before its reversal.
+        let exact_stop = half as f64 - STOPPED.asin() / step;
+        let offset = phase(first as f64 * step - TAU * (CYCLES - 1) as f64);
+        let delay = |n: Option<usize>, lead: f64, exact: f64| n.map(|n| (n as f64 + lead + offset - exact) * step);
+        Self {
+            loop_area: (0..cycle.len()).map(area).sum(),
+            slip_force,
+            largest_force: cycle.iter().fold(0.0, |largest: f64, point| largest.max(point.force.abs())),
+            slip_start_delay: delay(start, 0.0, slip_from),
+            slip_stop_delay: delay(stop, 1.0, exact_stop),
+        }
+    }
 }
 
 /// An element under a constant elongation.

@@ -22,10 +22,10 @@
 //! R = 0.001 at 6032 steps of 4 substeps: `R d/u_1 = 4.37` becomes 4, and the sum shifts w by -2.42e-5 (measured: -2.41e-5). The other increments, `d a`
 //! and `d w`, change from step to step by many spacings, and their roundings average out.
 
-use super::native_friction::Making;
+use super::native_friction::{Driven, Making};
 use crate::engine::mechanism::{ElementSpring, FrictionMechanism};
 use crate::engine::{EngineSettings, Precision, Scheme};
-use crate::model::OscillatorChain;
+use crate::model::{OscillatorChain, PrescribedMotion};
 
 /// A chain with an element of stiffness and slip force on oscillator 0.
 #[derive(Debug, Clone)]
@@ -55,20 +55,25 @@ struct Motion {
     impulse: f64,
 }
 
+impl Motion {
+    fn at_rest(x: Vec<f64>) -> Self {
+        let still = vec![0.0; x.len()];
+        Self { x, w: still.clone(), before: still, slider: 0.0, slider_velocity: 0.0, impulse: 0.0 }
+    }
+}
+
 impl SliderMap<'_> {
     /// Positions of oscillator 0 after 0, 1, ... `steps` steps; `None` where no difference equation is known: for slider bodies on a spring joint.
     #[must_use]
     pub fn positions(&self, start: &Start, steps: u64) -> Option<Vec<f64>> {
-        if self.making.mechanism.has_slider_body() && self.making.spring != ElementSpring::Hook {
+        if !self.is_known() {
             return None;
         }
         let mut motion = Motion {
-            x: start.positions.clone(),
             w: start.velocities.clone(),
             before: start.velocities.clone(),
             slider: start.positions[0] - start.force / self.stiffness,
-            slider_velocity: 0.0,
-            impulse: 0.0,
+            ..Motion::at_rest(start.positions.clone())
         };
         let mut positions = vec![motion.x[0]];
         for _ in 0..steps {
@@ -76,6 +81,39 @@ impl SliderMap<'_> {
             positions.push(motion.x[0]);
         }
         Some(positions)
+    }
+
+    /// With oscillator 0 moved by hand, from a slider without force, after 0, 1, ... `steps` steps. `None` as for [`Self::positions`], and for a motor
+    /// that saturates: its force is found from the motion that it is to change.
+    #[must_use]
+    pub fn driven(&self, prescribed: PrescribedMotion, steps: u64) -> Option<Vec<Driven>> {
+        if !self.is_known() || self.making.mechanism == FrictionMechanism::SaturatingMotor {
+            return None;
+        }
+        let d = self.settings.step / self.settings.substeps as f64;
+        let x = prescribed.position(0.0);
+        let mut motion = Motion { slider: x, ..Motion::at_rest(vec![x]) };
+        let mut points = Vec::new();
+        for n in 0..=steps {
+            motion.x[0] = prescribed.position(n as f64 * self.settings.step);
+            self.follow(&mut motion);
+            let force = self.stiffness * (motion.x[0] - motion.slider);
+            points.push(Driven { x: motion.x[0], slider: motion.slider, force });
+            (0..self.settings.substeps).for_each(|_| self.friction(&mut motion, force, d));
+        }
+        Some(points)
+    }
+
+    fn is_known(&self) -> bool {
+        !self.making.mechanism.has_slider_body() || self.making.spring == ElementSpring::Hook
+    }
+
+    /// The slider of a hook is taken along.
+    fn follow(&self, motion: &mut Motion) {
+        if self.making.mechanism == FrictionMechanism::Hook {
+            let reach = self.slip_force / self.stiffness;
+            motion.slider = motion.slider.clamp(motion.x[0] - reach, motion.x[0] + reach);
+        }
     }
 
     fn step(&self, motion: &mut Motion) {
@@ -98,10 +136,7 @@ impl SliderMap<'_> {
                 *x += d * w;
             }
         }
-        if self.making.mechanism == FrictionMechanism::Hook {
-            let reach = self.slip_force / self.stiffness;
-            motion.slider = motion.slider.clamp(motion.x[0] - reach, motion.x[0] + reach);
-        }
+        self.follow(motion);
     }
 
     fn friction(&self, motion: &mut Motion, force: f64, d: f64) {

@@ -1,9 +1,10 @@
 //! One line of JSON per file of an output directory: first that it is begun, then that it is finished.
 //!
-//! Lines are only appended, each by one write. A run that is killed can tear the last line at most; it is cut off on opening, and its
-//! file counts as unfinished.
+//! While a run lasts lines are only appended, each by one write. A run that is killed can tear the last line at most; it is cut off on
+//! opening, and its file counts as unfinished. When a run ends the journal is put in order: one line per file, by name. What it then says
+//! depends neither on the order in which threads came to an end nor on whether earlier runs were killed.
 
-use super::atomic::read_whole;
+use super::atomic::{read_whole, write_atomically};
 use super::error::StoreError;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -89,6 +90,25 @@ impl Journal {
         Ok(())
     }
 
+    /// One line per file, by name.
+    fn in_order(&self) -> serde_json::Result<String> {
+        let line = |(name, record): (&String, &Option<Record>)| {
+            let line = record.clone().map_or_else(|| Line::Begun { path: name.clone() }, Line::Finished);
+            serde_json::to_string(&line).map(|line| line + "\n")
+        };
+        self.known.iter().map(line).collect()
+    }
+
+    /// Replaces the lines by those in order, unless another process has appended since: its lines are not known here.
+    fn put_in_order(&self) -> Result<(), StoreError> {
+        let text = self.in_order().map_err(|error| StoreError::write(&self.path, error.into()))?;
+        let found = read_whole(&self.path)?;
+        if found.len() as u64 != self.length || found == text.as_bytes() {
+            return Ok(());
+        }
+        write_atomically(&self.path, |writer| writer.write_all(text.as_bytes()))
+    }
+
     fn append(&mut self, line: &Line) -> Result<(), StoreError> {
         let mut append = || -> io::Result<u64> {
             let mut text = serde_json::to_string(line).map_err(io::Error::other)?;
@@ -107,6 +127,15 @@ impl Journal {
                 let _ = self.file.set_len(self.length);
                 Err(StoreError::write(&self.path, source))
             }
+        }
+    }
+}
+
+impl Drop for Journal {
+    /// Best effort: lines in another order say the same.
+    fn drop(&mut self) {
+        if let Err(error) = self.put_in_order() {
+            tracing::debug!("the journal stays as it was written: {error}");
         }
     }
 }

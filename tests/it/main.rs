@@ -50,6 +50,8 @@ mod events;
 mod exact_energy;
 #[cfg(feature = "render")]
 mod film;
+#[cfg(feature = "cli")]
+mod fuzz;
 mod general_solver;
 #[cfg(feature = "render")]
 mod golden;
@@ -61,6 +63,8 @@ mod hopf;
 mod hysteresis;
 mod independent;
 mod layering;
+#[cfg(feature = "cli")]
+mod licences;
 mod lyapunov;
 #[cfg(feature = "cli")]
 mod mechanisms;
@@ -92,6 +96,8 @@ mod special_curves;
 #[cfg(feature = "render")]
 mod stage;
 mod store;
+#[cfg(feature = "cli")]
+mod streams;
 mod symmetry;
 mod tangent;
 #[cfg(feature = "render")]

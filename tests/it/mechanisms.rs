@@ -258,3 +258,42 @@ fn rows_of_native_friction_fail_only_where_the_slider_rings_ever_louder() {
     let unexpected: Vec<Row> = rows.iter().filter(|row| !rings(row)).cloned().collect();
     assert_eq!(failures(&unexpected), Vec::<String>::new());
 }
+
+#[test]
+fn experiment() {
+    use stickslip::conformance::native_friction::predicted_hysteresis;
+    for (mechanism, joints) in bodies() {
+        for spring in [ElementSpring::Hook, ElementSpring::SpringJoint] {
+            for mass in [0.01, 0.001] {
+                for precision in [Precision::Double, Precision::Single] {
+                    for substeps in [1, 4] {
+                        for steps in [377.0, 1508.0, 6032.0] {
+                            let making = Making::new(mechanism, mass, spring);
+                            let h = std::f64::consts::TAU / steps;
+                            let settings = EngineSettings { precision, ..settings(h, substeps, joints) };
+                            let found = hysteresis(&Rapier, making, settings).unwrap();
+                            let map = predicted_hysteresis(making, settings).unwrap();
+                            println!(
+                                "{:?} {spring:?} {mass} {precision:?} {substeps} {steps}: area {} mean {} start {:?} stop {:?}",
+                                mechanism,
+                                found.loop_area,
+                                found.slip_force[0],
+                                found.slip_start_delay,
+                                found.slip_stop_delay
+                            );
+                            if let Some(map) = map {
+                                println!(
+                                    "      map: {:.2e} {:.2e} {:?} {:?}",
+                                    found.loop_area - map.loop_area,
+                                    found.slip_force[0] - map.slip_force[0],
+                                    found.slip_start_delay.zip(map.slip_start_delay).map(|(a, b)| (a - b) / h),
+                                    found.slip_stop_delay.zip(map.slip_stop_delay).map(|(a, b)| (a - b) / h)
+                                );
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

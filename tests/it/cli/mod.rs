@@ -6,6 +6,7 @@ mod gallery;
 mod generated;
 mod in_the_way;
 mod input;
+mod killed;
 mod pictures;
 mod render;
 mod run;

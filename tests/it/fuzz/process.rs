@@ -1,0 +1,74 @@
+//! The program with bounds: processor time, memory and size of files.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Seconds of processor time, of the development build.
+const SECONDS: u32 = 30;
+/// Address space in kB: 1 GB, and the share of shared libraries and stacks of threads that is never touched.
+const MEMORY: u32 = 1_200_000;
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum End {
+    Status(i32),
+    /// It ran out of its time, but had said that it is at work.
+    Announced,
+}
+
+/// Runs in `folder`; a fault is what must never happen.
+pub fn run(arguments: &[String], folder: &Path) -> Result<End, String> {
+    let limits = format!(
+        "ulimit -c 0; ulimit -t {SECONDS}; ulimit -v {MEMORY}; trap '' XFSZ; ulimit -f 200000; exec \"$0\" \"$@\""
+    );
+    let mut command = Command::new("timeout");
+    command.args(["-s", "KILL", "600", "sh", "-c", &limits, env!("CARGO_BIN_EXE_stickslip")]).args(arguments);
+    command.current_dir(folder).stdin(Stdio::null());
+    // Stacks of threads count as address space.
+    command.env("RAYON_NUM_THREADS", "2").env_remove("RUST_LOG").env("RUST_BACKTRACE", "0");
+    // Into a file: the result of a run may be large.
+    let printed = folder.join("printed");
+    command.stdout(fs::File::create(&printed).map_err(|error| error.to_string())?);
+    let output = command.output().map_err(|error| error.to_string())?;
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    let told = || format!("{}\n{}", arguments.join(" "), message.chars().take(1500).collect::<String>());
+    if message.contains("panicked") {
+        return Err(format!("panic: {}", told()));
+    }
+    match output.status.code() {
+        Some(0 | 1) => Ok(End::Status(output.status.code().unwrap_or_default())),
+        Some(2) => {
+            refusal(arguments, &message).map(|()| End::Status(2)).map_err(|fault| format!("{fault}: {}", told()))
+        }
+        Some(137) | None if is_at_work(&message) => Ok(End::Announced),
+        Some(137) | None => Err(format!("no end within {SECONDS} s, and no word: {}", told())),
+        Some(134) => Err(format!("aborted, memory perhaps: {}", told())),
+        Some(code) => Err(format!("exit status {code}: {}", told())),
+    }
+}
+
+/// A heartbeat or an estimate.
+fn is_at_work(message: &str) -> bool {
+    [" of ", "about ", "estimate"].iter().any(|word| message.contains(word))
+}
+
+/// A refusal is short, and names an option, a field or a file.
+fn refusal(arguments: &[String], message: &str) -> Result<(), String> {
+    // Help that is given in the place of an error.
+    if message.contains("Usage:") && !message.contains("error:") {
+        return Ok(());
+    }
+    if message.len() >= 1000 {
+        return Err(format!("a message of {} bytes", message.len()));
+    }
+    let named = |argument: &String| {
+        let (name, value) = argument.split_once('=').unwrap_or((argument, argument));
+        [name, value].iter().any(|part| part.len() > 1 && message.contains(part))
+    };
+    let marks = ["`", "--", "field ", "subcommand", " = "];
+    if arguments.iter().any(named) || marks.iter().any(|mark| message.contains(mark)) {
+        return Ok(());
+    }
+    Err("a message that names neither option nor field nor file".to_owned())
+}
