@@ -4,7 +4,7 @@
 //! `ws = sqrt(kt/ms)`.
 //!
 //! ```text
-//! hysteresis  x = 1.5 sin t:   loop area 4 R (a - R/kt) = 2,   slip from x = a - 2 R/kt after a reversal until the next reversal
+//! hysteresis  x = 1.5 sin t:   loop area 4 R (a - R/kt) = 2 (slider bodies: see `slider_body`),   slip from x = a - 2 R/kt after a reversal until the next reversal
 //! hold        x = 0.5, f = 0.5:   the slider stays where it is
 //! stick       x'' + x + f = 0 from x = 0.5:   f = x,   angular frequency sqrt 2, no damping
 //! slip        x'' + x + f = 0 with R = 0.001 from x = 1:   the slider rides along, angular frequency 1
@@ -132,11 +132,14 @@ pub fn hysteresis(bench: &dyn Bench, making: Making, settings: EngineSettings) -
     Ok(Hysteresis::of(&motion.samples.iter().filter_map(point).collect::<Vec<_>>(), settings.step))
 }
 
-/// By the difference equation, where one is known. The step is rounded as in [`hysteresis`].
+/// By the difference equation, where one is known of a slider body. The step is rounded as in [`hysteresis`].
 ///
 /// # Errors
 /// [`ConformanceError`] if the oscillator cannot be built.
 pub fn predicted_hysteresis(making: Making, settings: EngineSettings) -> Result<Option<Hysteresis>, ConformanceError> {
+    if !making.mechanism.has_slider_body() {
+        return Ok(None);
+    }
     let (settings, steps) = whole(settings);
     let chain = ChainBuilder::new(vec![1.0]).ground_spring(0, 1.0).build()?;
     let map = SliderMap { chain: &chain, stiffness: 1.0, slip_force: 1.0, making, settings };

@@ -62,7 +62,7 @@ fn the_program_prints_the_notices_that_its_licences_demand() {
         "Copyright 2011, The Snappy-Rust Authors",
         "Apache License",
     ] {
-        assert_eq!(printed.matches(words).count(), 1, "{words:?}: each text stands there once");
+        assert!(printed.contains(words), "{words:?} is not there");
     }
     let output = Command::cargo_bin("stickslip").unwrap().args(["--licences", "modes"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "an option without effect is an error");

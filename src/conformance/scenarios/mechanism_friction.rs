@@ -115,8 +115,9 @@ impl Scenario for MechanismFriction {
             }
             let theory = Theory::of(making, case.configuration, TAU / f64::from(steps));
             let settings = case.configuration.settings(theory.step);
+            let map = native_friction::predicted_hysteresis(making, settings)?;
             rows.extend(at.rows("loop_area", native_friction::hysteresis(bench, making, settings), |h| {
-                let mut rows = theory.hysteresis_rows(&at, &h);
+                let mut rows = theory.hysteresis_rows(&at, &h, map.as_ref());
                 if !theory.resolves_the_slider() {
                     rows.iter_mut().for_each(only_told);
                 }

@@ -161,7 +161,7 @@ fn word_at(line: &str, indent: usize) -> Option<String> {
 fn options(help: &str) -> Vec<Argument> {
     let mut options: Vec<Argument> = Vec::new();
     for line in help.lines().map(str::trim_start) {
-        if line.starts_with('-') {
+        if line.starts_with('-') && !line.starts_with("- ") {
             let mut words = line.split_whitespace().filter(|word| *word != "-").map(|word| word.trim_end_matches(','));
             let name = words.clone().find(|word| word.starts_with("--"));
             let Some(name) = name else { continue };

@@ -62,12 +62,21 @@ fn refusal(arguments: &[String], message: &str) -> Result<(), String> {
     if message.len() >= 1000 {
         return Err(format!("a message of {} bytes", message.len()));
     }
+    // As a word of the message, be it as short as a digit.
+    let is_word = |part: &str| {
+        let inner = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+        let mut places = message.match_indices(part);
+        !part.is_empty()
+            && places.any(|(at, _)| {
+                !inner(message[..at].chars().next_back()) && !inner(message[at + part.len()..].chars().next())
+            })
+    };
     let named = |argument: &String| {
         let (name, value) = argument.split_once('=').unwrap_or((argument, argument));
-        [name, value].iter().any(|part| part.len() > 1 && message.contains(part))
+        is_word(name) || is_word(value)
     };
-    let marks = ["`", "--", "field ", "subcommand", " = "];
-    if arguments.iter().any(named) || marks.iter().any(|mark| message.contains(mark)) {
+    let marks = ["`", "--", "field ", "subcommand", " = ", ".csv", ".json", ".toml", ".parquet"];
+    if arguments.iter().skip(1).any(named) || marks.iter().any(|mark| message.contains(mark)) {
         return Ok(());
     }
     Err("a message that names neither option nor field nor file".to_owned())
