@@ -2,6 +2,7 @@
 
 use super::Verdict;
 use super::common::{Common, Document, print};
+use super::streams::{legible, tell};
 use crate::conformance::{Score, Setup, setups};
 use anyhow::{Context, bail, ensure};
 use clap::Args;
@@ -79,7 +80,9 @@ pub fn judge(args: &JudgeArgs) -> anyhow::Result<Verdict> {
         scores.iter().try_for_each(say)?;
     }
     if !failures.is_empty() {
-        bail!("{} of {} files could not be scored: {}", failures.len(), args.files.len(), failures.join("; "));
+        // A line each, as one message for all would be cut.
+        failures.iter().for_each(|failure| tell(&legible(failure)));
+        bail!("{} of {} files could not be scored", failures.len(), args.files.len());
     }
     let right = scores.iter().all(|score| score.right);
     Ok(if right { Verdict::Done } else { Verdict::Failed })

@@ -43,7 +43,8 @@ pub fn run(args: &LyapunovArgs) -> anyhow::Result<Verdict> {
     let p = args.rig.parameters()?;
     let start = beside_the_cycle(p, args.initial, args.seed)?;
     let plan = LyapunovPlan::new(window(args.transient, args.t_end)?);
-    let outcome = lyapunov_spectrum(&exact_flow(p)?, &start, plan)?;
+    let outcome = lyapunov_spectrum(&exact_flow(p)?, &start, plan)
+        .with_context(|| format!("from --transient {} to --t-end {}", args.transient, args.t_end))?;
     args.plot.draw(|| convergence(&outcome, p.xi1))?;
     if !args.common.json {
         print(&match &outcome {

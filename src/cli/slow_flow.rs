@@ -242,10 +242,11 @@ fn doublings(args: &DoublingArgs) -> anyhow::Result<Verdict> {
     );
     let flow = args.slow.flow()?;
     let points = hopf_points(&flow)?;
-    let first = points
-        .iter()
-        .find(|point| !point.beyond_fold)
-        .context("there is no secondary Hopf point before the fold, hence no torus that could double")?;
+    let p = args.slow.rig()?;
+    let first = points.iter().find(|point| !point.beyond_fold).with_context(|| {
+        let rig = format!("xi2 = {}, kappa = {}, gamma = {}", p.xi2, p.kappa, p.gamma);
+        format!("{rig}: there is no secondary Hopf point before the fold, hence no torus that could double")
+    })?;
     let found = period_doublings(&flow, first, args.count)?;
     let xi1: Vec<f64> = found.iter().map(|doubling| doubling.torus.xi1).collect();
     let ratio = |i: usize| (i > 0).then(|| Some((xi1[i] - xi1[i - 1]) / (xi1.get(i + 1)? - xi1[i]))).flatten();

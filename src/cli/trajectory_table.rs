@@ -88,6 +88,7 @@ pub fn from_table(table: &Table) -> anyhow::Result<(Case, Trajectory)> {
     let Some(ColumnData::Text(contacts)) = table.column("contact").map(|column| &column.values) else {
         bail!("the table has no column contact of words");
     };
+    ensure!(!contacts.is_empty(), "the table has no rows");
     let samples = contacts
         .iter()
         .enumerate()

@@ -2,7 +2,7 @@
 
 use super::error::StoreError;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::Path;
 use tempfile::{Builder, NamedTempFile};
 
@@ -90,10 +90,33 @@ fn is_abandoned(temporary: &Path) -> bool {
     File::open(temporary).is_ok_and(|file| !matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)))
 }
 
+/// Largest file that is read whole, in bytes: what is made of it takes about as much memory once more.
+const LARGEST: u64 = 512 << 20;
+/// The same of what has no length, such as a pipe or a device, which may be endless.
+const LARGEST_STREAM: u64 = 64 << 20;
+
 /// Reads a whole file.
 ///
 /// # Errors
-/// [`StoreError::Read`] naming the path.
+/// [`StoreError::Read`] naming the path, [`StoreError::TooLarge`] beyond 512 MiB, and beyond 64 MiB of what is no ordinary file.
 pub fn read_whole(path: &Path) -> Result<Vec<u8>, StoreError> {
-    fs::read(path).map_err(|source| StoreError::read(path, source))
+    let read = |limit: Option<u64>| -> io::Result<Vec<u8>> {
+        let mut file = File::open(path)?;
+        let mut bytes = Vec::new();
+        match limit {
+            Some(limit) => file.take(limit + 1).read_to_end(&mut bytes)?,
+            None => file.read_to_end(&mut bytes)?,
+        };
+        Ok(bytes)
+    };
+    let found = fs::metadata(path).map_err(|source| StoreError::read(path, source))?;
+    let too_large = |limit: u64| StoreError::TooLarge { path: path.to_owned(), mebibytes: limit >> 20 };
+    if found.is_file() {
+        return match found.len() {
+            length if length > LARGEST => Err(too_large(LARGEST)),
+            _ => read(None).map_err(|source| StoreError::read(path, source)),
+        };
+    }
+    let bytes = read(Some(LARGEST_STREAM)).map_err(|source| StoreError::read(path, source))?;
+    if bytes.len() as u64 > LARGEST_STREAM { Err(too_large(LARGEST_STREAM)) } else { Ok(bytes) }
 }

@@ -13,6 +13,8 @@ pub enum StoreError {
     Remove { path: PathBuf, source: io::Error },
     #[error("cannot read {path}: {source}", path = .path.display())]
     Read { path: PathBuf, source: io::Error },
+    #[error("{path} is larger than {mebibytes} MiB, more than can be read: give a shorter one", path = .path.display())]
+    TooLarge { path: PathBuf, mebibytes: u64 },
     #[error("{path} is damaged: {reason}. {remedy}", path = .path.display())]
     Damaged { path: PathBuf, reason: String, remedy: &'static str },
     #[error(

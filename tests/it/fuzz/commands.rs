@@ -104,8 +104,8 @@ impl Grammar {
     pub fn line(&self, dice: &mut Dice) -> Vec<String> {
         let mut line = self.words.clone();
         for _ in &self.positional {
-            if !dice.once_in(5) {
-                line.push(value(dice, &[]));
+            if !dice.once_in(8) {
+                line.push(value(dice, "FILE", &[]));
             }
         }
         let mut given = Vec::new();
@@ -118,12 +118,15 @@ impl Grammar {
                 continue;
             }
             given.push(option.name.clone());
-            if option.value.is_none() {
+            let Some(kind) = option.value else {
                 line.push(option.name);
-            } else if dice.once_in(2) {
-                line.push(format!("{}={}", option.name, value(dice, &option.words)));
+                continue;
+            };
+            let value = value(dice, &kind, &option.words);
+            if dice.once_in(2) {
+                line.push(format!("{}={value}", option.name));
             } else {
-                line.extend([option.name, value(dice, &option.words)]);
+                line.extend([option.name, value]);
             }
         }
         let command = self.words.join(" ");
@@ -134,15 +137,23 @@ impl Grammar {
     }
 }
 
-fn value(dice: &mut Dice, words: &[String]) -> String {
-    if !words.is_empty() && !dice.once_in(4) {
+/// Mostly of the kind that the placeholder asks for.
+fn value(dice: &mut Dice, kind: &str, words: &[String]) -> String {
+    if !words.is_empty() && !dice.once_in(6) {
         return dice.pick(words).clone();
     }
-    match dice.below(8) {
-        0..=2 => dice.number(),
-        3 => (*dice.pick(&SHAPES)).to_owned(),
-        4 if dice.once_in(6) => "y".repeat(5_000),
-        _ => (*dice.pick(&WORDS)).to_owned(),
+    let is_file = ["FILE", "PATH", "DIR", "json"].iter().any(|word| kind.contains(word));
+    let is_shape = kind.contains([':', '/', ',', '=']) || kind.contains("WIDTH");
+    match dice.below(12) {
+        0 => dice.number(),
+        1 => (*dice.pick(&SHAPES)).to_owned(),
+        2 if dice.once_in(6) => "y".repeat(5_000),
+        2 => (*dice.pick(&WORDS)).to_owned(),
+        // The first ones are those that most commands can use.
+        3..=8 if is_file => WORDS[dice.below(3)].to_owned(),
+        _ if is_file => (*dice.pick(&WORDS)).to_owned(),
+        _ if is_shape => (*dice.pick(&SHAPES)).to_owned(),
+        _ => dice.number(),
     }
 }
 

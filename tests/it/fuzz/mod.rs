@@ -1,4 +1,5 @@
-//! Inputs that are nearly right, by a seed: scenes, stories, stored trajectories, set-ups of conformance, command lines. None may make the
+//! Inputs that are nearly right, by a seed: scenes, stories, stored trajectories, set-ups and baselines of conformance, finished films, command
+//! lines. None may make the
 //! program panic, run without an end or a word, take more than 1 GB of memory, or end with an exit status other than 0, 1 and 2; and a refusal
 //! is shorter than 1 kB and names an option, a field or a file.
 //!
@@ -16,13 +17,14 @@ use commands::Grammar;
 use dice::Dice;
 use process::End;
 use rayon::prelude::*;
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
-use stickslip::conformance::{Setup, setups};
+use stickslip::conformance::{Baseline, Setup, setups};
 use stickslip::scene::{BUILT_IN, BUILT_IN_DISKS, Scene, Story};
 use stickslip::store::{Table, read_table};
 
@@ -40,12 +42,18 @@ const DISK: &str = "title = \"disk\"\n[disk]\nsectors = 4\ncoupling = 0.1\n[[dis
                     [disk_start]\nwaves = [{ nodal_diameter = 1, amplitude = 1.1 }]\n[simulation]\nduration = 20.0\n";
 const MISTUNING: &str = "[disk.mistuning]\nkind = \"normal\"\nstandard_deviation = 0.01\nseed = 1\n";
 
+const BASELINE: &str = "{\"stickslip\": \"0.1.0\", \"command\": \"conformance baseline\", \"parameters\": {\"depth\":\"quick\"},\n\
+                        \"engines\": [\"rapier3d\"], \"rows\": {\n\"chaos | | f64\": {\n\
+                        \"256 | bounded\": {\"verdict\":\"passed\",\"physics\":\"right\",\"found\":1.0,\"tolerance\":0.0}\n}}}\n";
+
 /// What inputs are made from.
 struct Corpus {
     scenes: Vec<String>,
     stories: Vec<String>,
     tables: Vec<Table>,
     setups: Vec<Setup>,
+    /// Names and bytes of the files of a film that is finished.
+    film: Vec<(String, Vec<u8>)>,
     grammars: Vec<Grammar>,
 }
 
@@ -72,7 +80,18 @@ impl Corpus {
                 assert_eq!(process::run(&words(line), folder.path()), Ok(End::Status(0)), "{line}");
                 read_table(&folder.path().join(line.rsplit(' ').next().unwrap())).unwrap()
             });
-        Self { scenes, stories, tables: simulated.into(), setups: setups().unwrap(), grammars: Grammar::all() }
+        let line = "render scene.toml --with exact --renderer cpu -o film";
+        assert_eq!(process::run(&words(line), folder.path()), Ok(End::Status(0)), "{line}");
+        let mut film = Vec::new();
+        for part in ["film", "film/frames"] {
+            for path in fs::read_dir(folder.path().join(part)).unwrap().map(|entry| entry.unwrap().path()) {
+                if path.is_file() {
+                    let name = path.strip_prefix(folder.path()).unwrap().to_str().unwrap().to_owned();
+                    film.push((name, fs::read(&path).unwrap()));
+                }
+            }
+        }
+        Self { film, scenes, stories, tables: simulated.into(), setups: setups().unwrap(), grammars: Grammar::all() }
     }
 }
 
@@ -103,19 +122,47 @@ fn playground(corpus: &Corpus) -> tempfile::TempDir {
     folder
 }
 
+fn told(panic: &(dyn Any + Send)) -> String {
+    panic
+        .downcast_ref::<String>()
+        .cloned()
+        .or(panic.downcast_ref::<&str>().map(|s| (*s).to_owned()))
+        .unwrap_or_default()
+}
+
 /// In this process; a panic is a fault, and so is a refusal that is too long or names nothing.
 fn quietly(words: &[&str], read: impl FnOnce() -> Result<(), String>) -> Result<&'static str, String> {
     match catch_unwind(AssertUnwindSafe(read)) {
-        Err(panic) => {
-            let text =
-                panic.downcast_ref::<String>().cloned().or(panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
-            Err(format!("panic: {}", text.unwrap_or_default()))
-        }
+        Err(panic) => Err(format!("panic: {}", told(panic.as_ref()))),
         Ok(Ok(())) => Ok("accepted"),
         Ok(Err(message)) if words.iter().any(|word| message.contains(word)) => Ok("refused"),
         Ok(Err(message)) => Err(format!("names neither field nor file: {message}")),
     }
 }
+
+/// A directory in which a film is finished, one of its files changed.
+fn changed_film(corpus: &Corpus, dice: &mut Dice) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    fs::create_dir_all(folder.path().join("film/frames")).unwrap();
+    let texts = ["film/frames.json", "film/manifest.json", "film/outputs.jsonl"];
+    let changed = *dice.pick(&texts);
+    for (name, bytes) in &corpus.film {
+        let bytes = match String::from_utf8(bytes.clone()) {
+            Ok(text) if name == changed => texts::changed(dice, &text, &[text.clone()]).into_bytes(),
+            _ => bytes.clone(),
+        };
+        fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    folder
+}
+
+const ON_A_FILM: [&str; 4] = [
+    "animate film -o a.gif",
+    "contact-sheet film --count 2 -o sheet.png",
+    "render scene.toml --with exact --renderer cpu -o film",
+    "render scene.toml --with exact --renderer cpu -o film --force",
+];
 
 /// A command that a scene can be given to, shortened.
 const ON_A_SCENE: [&str; 8] = [
@@ -133,7 +180,7 @@ const ON_A_SCENE: [&str; 8] = [
 fn input(corpus: &Corpus, seed: u64, number: u64) -> Result<String, String> {
     let mut dice = Dice::of(seed, number);
     let dice = &mut dice;
-    let told = |end: End| format!("{end:?}");
+    let ended = |end: End| format!("{end:?}");
     match number % 10 {
         0..=2 => {
             let base = dice.pick(&corpus.scenes);
@@ -147,7 +194,7 @@ fn input(corpus: &Corpus, seed: u64, number: u64) -> Result<String, String> {
                 fs::write(folder.path().join("scene.toml"), &text).unwrap();
                 let end = process::run(&words(*dice.pick(&ON_A_SCENE)), folder.path());
                 return end
-                    .map(|end| format!("scene, {}", told(end)))
+                    .map(|end| format!("scene, {}", ended(end)))
                     .map_err(|fault| format!("{fault}\n{}", shown(&text)));
             }
             Ok(format!("scene, {found}"))
@@ -168,7 +215,7 @@ fn input(corpus: &Corpus, seed: u64, number: u64) -> Result<String, String> {
                 let line = words("run --story story.toml --renderer cpu --size 64x64 --frames 0:1 --t-end 1 -o out");
                 let end = process::run(&line, folder.path());
                 return end
-                    .map(|end| format!("story, {}", told(end)))
+                    .map(|end| format!("story, {}", ended(end)))
                     .map_err(|fault| format!("{fault}\n{}", shown(&text)));
             }
             Ok(format!("story, {found}"))
@@ -182,9 +229,21 @@ fn input(corpus: &Corpus, seed: u64, number: u64) -> Result<String, String> {
             let found = quietly(&[name], || tables::read(&path))?;
             if found == "accepted" && dice.once_in(2) || dice.once_in(20) {
                 let line = format!("render --trajectory {name} --renderer cpu --at 1 --size 64x64 -o out.png");
-                return process::run(&words(&line), folder.path()).map(|end| format!("table, {}", told(end)));
+                return process::run(&words(&line), folder.path()).map(|end| format!("table, {}", ended(end)));
             }
             Ok(format!("table, {found}"))
+        }
+        6 if dice.once_in(6) => {
+            let folder = changed_film(corpus, dice);
+            process::run(&words(*dice.pick(&ON_A_FILM)), folder.path()).map(|end| format!("film, {}", ended(end)))
+        }
+        6 if dice.once_in(5) => {
+            let text = texts::changed(dice, BASELINE, &[BASELINE.to_owned()]);
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("old.json");
+            fs::write(&path, &text).unwrap();
+            let read = || Baseline::read(&path).map(|_| ()).map_err(|error| error.to_string());
+            quietly(&["old.json"], read).map(|found| format!("baseline, {found}"))
         }
         6 => {
             let setup = dice.pick(&corpus.setups);
@@ -208,14 +267,14 @@ fn input(corpus: &Corpus, seed: u64, number: u64) -> Result<String, String> {
             let found = quietly(&["a.csv", "a.json"], read)?;
             if dice.once_in(10) {
                 let end = process::run(&words("conformance judge --setups . mine/a.csv"), folder.path());
-                return end.map(|end| format!("set-up, {}", told(end)));
+                return end.map(|end| format!("set-up, {}", ended(end)));
             }
             Ok(format!("set-up, {found}"))
         }
         _ => {
             let line = dice.pick(&corpus.grammars).line(dice);
             let folder = playground(corpus);
-            process::run(&line, folder.path()).map(|end| format!("command line, {}", told(end)))
+            process::run(&line, folder.path()).map(|end| format!("command line, {}", ended(end)))
         }
     }
 }
@@ -245,7 +304,8 @@ fn nearly_right_inputs_are_answered() {
         .with_max_len(1)
         .map(|&number| {
             let begun = Instant::now();
-            let result = input(&corpus, seed, number);
+            let result = catch_unwind(AssertUnwindSafe(|| input(&corpus, seed, number)))
+                .unwrap_or_else(|panic| Err(format!("panic outside the readers: {}", told(panic.as_ref()))));
             let seconds = begun.elapsed().as_secs();
             slowest.fetch_max(seconds, Ordering::Relaxed);
             let late = seconds > PATIENCE && !result.as_ref().is_ok_and(|end| end.contains("Announced"));

@@ -50,13 +50,17 @@ fn change(dice: &mut Dice, table: &mut Table) {
         1 => table.columns[column].name = (*dice.pick(&["t", "x1", "contact", "f", "", "q"])).to_owned(),
         2 => table.columns[column].unit = (*dice.pick(&["", "1", "m", "furlong"])).to_owned(),
         3 => {
-            if let ColumnData::F64(values) = &mut table.columns[column].values {
+            if let ColumnData::F64(values) = &mut table.columns[column].values
+                && !values.is_empty()
+            {
                 let at = dice.below(values.len());
                 values[at] = dice.number().parse().ok().filter(|value: &f64| value.is_finite()).unwrap_or(1e300);
             }
         }
         4 => {
-            if let ColumnData::Text(values) = &mut table.columns[column].values {
+            if let ColumnData::Text(values) = &mut table.columns[column].values
+                && !values.is_empty()
+            {
                 let at = dice.below(values.len());
                 values[at] = (*dice.pick(&["stick", "slip", "", "slip+", "neither"])).to_owned();
             }

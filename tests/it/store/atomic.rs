@@ -1,7 +1,8 @@
 use crate::small_disk::{SmallDisk, names_in, unwritable_place};
-use std::fs;
+use std::fs::{self, File};
 use std::io;
-use stickslip::store::{StoreError, remove_leftovers, write_atomically};
+use std::path::Path;
+use stickslip::store::{StoreError, read_whole, remove_leftovers, write_atomically};
 
 #[test]
 fn a_file_appears_whole_in_a_new_directory_and_leaves_nothing_else() {
@@ -97,4 +98,19 @@ fn leftovers_are_removed_but_not_files_of_others_or_of_a_live_run() {
     .unwrap();
     assert_eq!(names_in(place.path()), ["file.txt", "notes.txt"]);
     assert_eq!(remove_leftovers(&at("nowhere")).unwrap(), 0);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_without_an_end_is_refused_and_so_is_a_huge_one() {
+    let endless = read_whole(Path::new("/dev/zero")).unwrap_err().to_string();
+    assert!(endless.contains("/dev/zero is larger than 64 MiB"), "{endless}");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("huge");
+    // Without blocks on the disk.
+    File::create(&path).unwrap().set_len(1 << 40).unwrap();
+    let huge = read_whole(&path).unwrap_err().to_string();
+    assert!(huge.contains("huge is larger than 512 MiB"), "{huge}");
+    fs::write(&path, "short").unwrap();
+    assert_eq!(read_whole(&path).unwrap(), b"short");
 }
