@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Name and version.
 pub type Package = (String, String);
 
-/// Every package that Cargo.lock reaches from the dependencies of the program, on any platform. Those that only build it (Cargo.lock does not
-/// tell them apart) are among them; those that only test it are not.
+/// Every package that Cargo.lock reaches from the dependencies of the program, on any platform. Those that only build
+/// it (Cargo.lock does not tell them apart) are among them; those that only test it are not.
 ///
 /// # Errors
 /// What is missing in the files.

@@ -2,8 +2,9 @@
 //!
 //! `cargo run --example notice`
 //!
-//! Where a package may be used under the Apache License 2.0, it is: one text serves them all. Of the others every text is given, each once, with
-//! the packages it belongs to. Texts of what packages bring along (C sources, fonts) are given in any case.
+//! Where a package may be used under the Apache License 2.0, it is: one text serves them all. Of the others every text
+//! is given, each once, with the packages it belongs to. Texts of what packages bring along (C sources, fonts) are
+//! given in any case.
 
 mod lock;
 
@@ -18,9 +19,10 @@ const APACHE: &str = "Apache-2.0";
 
 const HEAD: &str = "Notices of the software in stickslip
 
-stickslip itself is licensed under MIT OR Apache-2.0, see LICENSE-MIT and LICENSE-APACHE. This file is made from Cargo.lock by
-`cargo run --example notice`, and printed by `stickslip --licences`. It names every package that the program is made of or made with on
-some platform, with the licence it is used under, and then gives the texts of the licences.
+stickslip itself is licensed under MIT OR Apache-2.0, see LICENSE-MIT and LICENSE-APACHE. This file is made from
+Cargo.lock by `cargo run --example notice`, and printed by `stickslip --licences`. It names every package that the
+program is made of or made with on some platform, with the licence it is used under, and then gives the texts of the
+licences.
 ";
 
 /// Texts of licences whose packages bring none: the holders stand in the place of `{}`.

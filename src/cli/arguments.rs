@@ -15,7 +15,8 @@ pub fn read() -> Result<Cli, ExitCode> {
     Cli::try_parse_from(joined(std::env::args_os())).map_err(|error| answer(&error))
 }
 
-/// A number after an option is its value, a negative one too: `--count -1` is read as `--count=-1`, so that a refusal names the option.
+/// A number after an option is its value, a negative one too: `--count -1` is read as `--count=-1`, so that a refusal
+/// names the option.
 fn joined(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
     let mut joined: Vec<OsString> = Vec::new();
     let mut options = true;

@@ -48,9 +48,9 @@ use tracing_subscriber::EnvFilter;
     max_term_width = 110,
     arg_required_else_help = true,
     args_conflicts_with_subcommands = true,
-    after_help = "Exit status: 0 done; 1 done, but a check or comparison failed; 2 bad input, or it could not run. A reader of the output that has \
-                  gone away changes nothing. Output that cannot be written for another reason is exit status 2. News and messages that cannot be \
-                  written are lost.\n\n\
+    after_help = "Exit status: 0 done; 1 done, but a check or comparison failed; 2 bad input, or it could not run. A \
+                  reader of the output that has gone away changes nothing. Output that cannot be written for another \
+                  reason is exit status 2. News and messages that cannot be written are lost.\n\n\
                   Example:\n  stickslip run        the main job with the built-in scene, into renders/limit_torus"
 )]
 struct Cli {

@@ -1,7 +1,8 @@
 //! Standard error: news, logs and the last word of a run that failed.
 //!
-//! A line that cannot be written (a full disk, a closed stream, a reader that has gone away) is lost and is no failure: the exit status says
-//! how the run ended. Standard output is the result, and is lost only to a reader that has gone away (see `common::print`).
+//! A line that cannot be written (a full disk, a closed stream, a reader that has gone away) is lost and is no failure:
+//! the exit status says how the run ended. Standard output is the result, and is lost only to a reader that has gone
+//! away (see `common::print`).
 
 use std::io::Write;
 
@@ -16,7 +17,8 @@ pub fn tell(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// The message on one screen: without its middle if it is long, and without control characters, which would move the cursor.
+/// The message on one screen: without its middle if it is long, and without control characters, which would move the
+/// cursor.
 pub fn legible(message: &str) -> String {
     let plain = |c: char| if c.is_control() && c != '\n' { c.escape_default().to_string() } else { c.to_string() };
     let message: String = message.chars().map(plain).collect();

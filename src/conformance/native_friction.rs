@@ -4,8 +4,8 @@
 //! `ws = sqrt(kt/ms)`.
 //!
 //! ```text
-//! hysteresis  x = 1.5 sin t:   loop area 4 R (a - R/kt) = 2 (slider bodies: see `slider_body`),   slip from x = a - 2 R/kt after a reversal until the next reversal
-//! hold        x = 0.5, f = 0.5:   the slider stays where it is
+//! hysteresis  x = 1.5 sin t:   loop area 4 R (a - R/kt) = 2 (slider bodies: see `slider_body`),   slip from x = a - 2
+//! R/kt after a reversal until the next reversal hold        x = 0.5, f = 0.5:   the slider stays where it is
 //! stick       x'' + x + f = 0 from x = 0.5:   f = x,   angular frequency sqrt 2, no damping
 //! slip        x'' + x + f = 0 with R = 0.001 from x = 1:   the slider rides along, angular frequency 1
 //! decay       x'' + x + f = 0 from x = 3:   the third maximum after the start, by the exact flow

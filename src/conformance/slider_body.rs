@@ -1,18 +1,22 @@
-//! Loop area of a Jenkins element (stiffness 1, slip force 1) whose slider has a mass m, in continuous time under `x = a sin t`:
+//! Loop area of a Jenkins element (stiffness 1, slip force 1) whose slider has a mass m, in continuous time under `x =
+//! a sin t`:
 //!
 //! ```text
 //! m s'' = (x - s) - sgn s'  in slip,     s' = 0 while |x - s| <= 1
-//! slip in the sense c = +-1 from rest at t0:   s = g sin t - c + C cos w(t - t0) + D sin w(t - t0),   w = 1/sqrt m,  g = a/(1 - m)
+//! slip in the sense c = +-1 from rest at t0:   s = g sin t - c + C cos w(t - t0) + D sin w(t - t0),   w = 1/sqrt m,  g
+//! = a/(1 - m)
 //! ```
 //!
-//! It ends where s' = 0 again: in stick, or at once in the other sense if the spring pulls by more than 1. In a periodic motion neither
-//! spring nor mass keep work, so that the loop area is what friction takes: the whole way of the slider in a cycle. With m = 0 that is 4 (a - 1).
+//! It ends where s' = 0 again: in stick, or at once in the other sense if the spring pulls by more than 1. In a
+//! periodic motion neither spring nor mass keep work, so that the loop area is what friction takes: the whole way of
+//! the slider in a cycle. With m = 0 that is 4 (a - 1).
 
 use std::f64::consts::{PI, TAU};
 
 /// Cycles until the motion is periodic: what is left of the start falls by ten or more in each.
 const CYCLES: u32 = 20;
-/// Steps in a period of the slider's own oscillation, in which the end of slip is looked for. It lasts about half of one at least.
+/// Steps in a period of the slider's own oscillation, in which the end of slip is looked for. It lasts about half of
+/// one at least.
 const STEPS: f64 = 200.0;
 
 struct Slider {
@@ -94,7 +98,8 @@ mod tests {
 
     #[test]
     fn loop_areas_are_those_of_an_independent_integration() {
-        // Computed outside the project with 25 digits, the area by quadrature over the phases of stick and slip: 2.346318579, 2.034332918.
+        // Computed outside the project with 25 digits, the area by quadrature over the phases of stick and slip:
+        // 2.346318579, 2.034332918.
         assert!((loop_area(1.5, 0.01) - 2.346_318_579).abs() < 1e-8, "{}", loop_area(1.5, 0.01));
         assert!((loop_area(1.5, 0.001) - 2.034_332_918).abs() < 1e-8, "{}", loop_area(1.5, 0.001));
         // Without mass 4 (a - 1); the overshoot is of the order of the root of the mass.

@@ -83,8 +83,8 @@ impl SliderMap<'_> {
         Some(positions)
     }
 
-    /// With oscillator 0 moved by hand, from a slider without force, after 0, 1, ... `steps` steps. `None` as for [`Self::positions`], and for a motor
-    /// that saturates: its force is found from the motion that it is to change.
+    /// With oscillator 0 moved by hand, from a slider without force, after 0, 1, ... `steps` steps. `None` as for
+    /// [`Self::positions`], and for a motor that saturates: its force is found from the motion that it is to change.
     #[must_use]
     pub fn driven(&self, prescribed: PrescribedMotion, steps: u64) -> Option<Vec<Driven>> {
         if !self.is_known() || self.making.mechanism == FrictionMechanism::SaturatingMotor {

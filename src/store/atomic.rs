@@ -98,7 +98,8 @@ const LARGEST_STREAM: u64 = 64 << 20;
 /// Reads a whole file.
 ///
 /// # Errors
-/// [`StoreError::Read`] naming the path, [`StoreError::TooLarge`] beyond 512 MiB, and beyond 64 MiB of what is no ordinary file.
+/// [`StoreError::Read`] naming the path, [`StoreError::TooLarge`] beyond 512 MiB, and beyond 64 MiB of what is no
+/// ordinary file.
 pub fn read_whole(path: &Path) -> Result<Vec<u8>, StoreError> {
     let read = |limit: Option<u64>| -> io::Result<Vec<u8>> {
         let mut file = File::open(path)?;

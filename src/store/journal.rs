@@ -1,8 +1,9 @@
 //! One line of JSON per file of an output directory: first that it is begun, then that it is finished.
 //!
-//! While a run lasts lines are only appended, each by one write. A run that is killed can tear the last line at most; it is cut off on
-//! opening, and its file counts as unfinished. When a run ends the journal is put in order: one line per file, by name. What it then says
-//! depends neither on the order in which threads came to an end nor on whether earlier runs were killed.
+//! While a run lasts lines are only appended, each by one write. A run that is killed can tear the last line at most;
+//! it is cut off on opening, and its file counts as unfinished. When a run ends the journal is put in order: one line
+//! per file, by name. What it then says depends neither on the order in which threads came to an end nor on whether
+//! earlier runs were killed.
 
 use super::atomic::{read_whole, write_atomically};
 use super::error::StoreError;

@@ -50,7 +50,7 @@ mod events;
 mod exact_energy;
 #[cfg(feature = "render")]
 mod film;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", target_os = "linux"))]
 mod fuzz;
 mod general_solver;
 #[cfg(feature = "render")]
@@ -96,7 +96,7 @@ mod special_curves;
 #[cfg(feature = "render")]
 mod stage;
 mod store;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", target_os = "linux"))]
 mod streams;
 mod symmetry;
 mod tangent;

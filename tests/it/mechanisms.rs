@@ -283,9 +283,9 @@ fn the_loop_area_of_a_slider_body_is_that_of_its_equation_of_motion() {
                 (found - (expected - yielding)).abs()
             };
             let (coarse, fine) = (error(STEPS[1]), error(STEPS[2]));
-            // The third cycle, which is measured, is within 3e-5 of the periodic one. The rest is of second order in the step: (ws d)^2/24 of the
-            // ringing's share 0.35 and 0.034 of the area, and of the slider's way while it gets going; a contact yields under a force that
-            // overshoots by v_c sqrt(ms), a seventh at most.
+            // The third cycle, which is measured, is within 3e-5 of the periodic one. The rest is of second order in
+            // the step: (ws d)^2/24 of the ringing's share 0.35 and 0.034 of the area, and of the slider's way while it
+            // gets going; a contact yields under a force that overshoots by v_c sqrt(ms), a seventh at most.
             let resolved = STEPS[2].powi(2) / mass;
             let allowed = 3e-5 + (0.2 + 4.0 / 7.0) * resolved;
             assert!(fine < allowed, "{} {mass}: {coarse:.2e}, {fine:.2e}", mechanism.words());

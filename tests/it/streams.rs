@@ -1,21 +1,16 @@
 //! Standard error and standard output that cannot be written: full, closed, or read by nobody.
 //!
-//! News and messages that cannot be written are lost and change nothing. A reader of the result that has gone away changes nothing either. A
-//! result that cannot be written for another reason is exit status 2.
+//! News and messages that cannot be written are lost and change nothing. A reader of the result that has gone away
+//! changes nothing either. A result that cannot be written for another reason is exit status 2.
 
 use rayon::prelude::*;
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-const SCENE: &str = "title = \"short\"\n[simulation]\nduration = 4.0\n[film]\nwidth = 64\nheight = 64\nfps = 5\nspeed = 4.0\n\
-                     [direction]\npanels = []\n";
-const DISK: &str = "title = \"disk\"\n[disk]\nsectors = 4\ncoupling = 0.1\n[[disk.friction]]\nplace = \"foot\"\nstiffness = 0.5\n\
-                    [disk.aerodynamics]\ngiven = \"coefficients\"\ncoefficients = [{ offset = 0, imaginary = 0.01 }, \
-                    { offset = 1, real = 0.02 }, { offset = -1, real = -0.02 }]\n\
-                    [disk_start]\nwaves = [{ nodal_diameter = 1, amplitude = 1.1 }]\n[simulation]\nduration = 20.0\n";
-
-const MISTUNING: &str = "[disk.mistuning]\nkind = \"normal\"\nstandard_deviation = 0.01\nseed = 1\n";
+const SCENE: &str = include_str!("../inputs/short.toml");
+const DISK: &str = include_str!("../inputs/disk.toml");
+const MISTUNED: &str = include_str!("../inputs/mistuned.toml");
 
 /// What is run: arguments, with `@` for a folder of its own. Every command, and a refusal of every kind.
 const RUNS: &[&str] = &[
@@ -99,7 +94,7 @@ fn inputs() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     put(folder.path(), "scene.toml", SCENE);
     put(folder.path(), "disk.toml", DISK);
-    put(folder.path(), "mistuned.toml", &format!("{DISK}{MISTUNING}"));
+    put(folder.path(), "mistuned.toml", MISTUNED);
     let run = |line: &str| program(line, folder.path()).output().unwrap();
     let made = run("conformance export -q -o @/setups");
     assert!(made.status.success(), "{made:?}");
@@ -155,7 +150,6 @@ fn run_without(line: &str, inputs: &Path, stream: &str) -> Output {
     shell.env("RUST_LOG", "trace").output().unwrap()
 }
 
-#[cfg(target_os = "linux")]
 #[test]
 fn streams_that_cannot_be_written_never_panic_and_leave_the_exit_status() {
     let inputs = inputs();
@@ -249,7 +243,7 @@ fn messages_stay_short_whatever_they_quote() {
     let long = "y".repeat(100_000);
     for line in [
         format!("orbit --xi1 {long}"),
-        format!("{long}"),
+        long.clone(),
         format!("run {long}"),
         format!("simulate --initial {long}"),
         format!("conformance judge {long}/a.csv"),

@@ -130,7 +130,8 @@ impl Theory {
             return (massless - yielding, coarse);
         }
         let area = slider_body::loop_area(AMPLITUDE, self.slider_mass);
-        // A spring joint damps the ringing at the rate kt d/(2 ms). It takes from the area no more than this part of what ringing adds.
+        // A spring joint damps the ringing at the rate kt d/(2 ms). It takes from the area no more than this part of
+        // what ringing adds.
         let damped = 1.0 - (-0.5 * self.substep() / self.slider_mass * SLIP_PHASE).exp();
         // What yields is loaded by the overshoot too.
         (area - yielding, damped * (area - massless) + yielding * self.overshoot() + coarse)
@@ -190,14 +191,15 @@ impl Theory {
             _ => String::new(),
         };
         let reason = format!(
-            "the difference equation of the slider{limit}; tolerance: 0.1 %, for creep and rounding, and 2 % of the predicted error, for contacts \
-             that are solved by iteration; right: within 1 %"
+            "the difference equation of the slider{limit}; tolerance: 0.1 %, for creep and rounding, and 2 % of the \
+             predicted error, for contacts that are solved by iteration; right: within 1 %"
         );
         at.row(quantity, Judgement { basis: Basis::DifferenceEquation, expected, found, tolerance, reason })
     }
 
     fn delayed(&self, at: &Subject, quantity: &str, found: f64, expected: f64) -> Row {
-        let reason = "the difference equation of the slider; tolerance: a step and a half, as times are told in whole steps; right: within 1 %";
+        let reason = "the difference equation of the slider; tolerance: a step and a half, as times are told in whole \
+                      steps; right: within 1 %";
         let (basis, tolerance) = (Basis::DifferenceEquation, 1.5 * self.step);
         at.row(quantity, Judgement { basis, expected, found, tolerance, reason: reason.to_owned() })
     }

@@ -2,6 +2,7 @@
 
 use super::{document, refused, scene_file};
 use std::fs;
+use stickslip::store::{ColumnData, read_table, write_table};
 
 #[test]
 fn bad_input_is_refused_with_file_line_and_field() {
@@ -62,4 +63,26 @@ fn steps_that_no_engine_could_take_are_refused() {
     refused(&["simulate", "--xi1", "1e4"], &["from -100 to 100"]);
     // Exponents are numbers too.
     assert_eq!(document(&["simulate", "--xi1", "-6e-2", "--t-end", "1", "--json"])["parameters"]["xi1"], -0.06);
+}
+
+#[test]
+fn what_fuzzing_found_is_refused_with_what_it_is_about() {
+    // Messages that named no option, no field and no file.
+    refused(&["lyapunov", "--t-end=40", "--transient=10"], &["--t-end 40", "--transient 10", "at least"]);
+    refused(&["slow-flow", "doublings", "--gamma", "0.0001"], &["gamma = 0.0001", "no secondary Hopf point"]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.csv");
+    let name = path.to_str().unwrap();
+    document(&["simulate", "--t-end", "1", "--json", "-o", name]);
+    let mut table = read_table(&path).unwrap();
+    for column in &mut table.columns {
+        match &mut column.values {
+            ColumnData::F64(values) => values.clear(),
+            ColumnData::OptionalF64(values) => values.clear(),
+            ColumnData::Text(values) => values.clear(),
+        }
+    }
+    write_table(&path, &table).unwrap();
+    let picture = folder.path().join("p.png");
+    refused(&["render", "--trajectory", name, "--at", "0", "-o", picture.to_str().unwrap()], &[name, "no rows"]);
 }

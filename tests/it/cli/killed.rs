@@ -7,8 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-const SCENE: &str = "title = \"x\"\n[simulation]\nduration = 40.0\n[film]\nwidth = 160\nheight = 96\nfps = 5\nspeed = 4.0\n\
-                     [direction]\npanels = []\n";
+const SCENE: &str = include_str!("../../inputs/short.toml");
 
 /// Names and bytes of all files.
 fn contents(root: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -72,7 +71,9 @@ fn same_after_kills(line: &[&str], kills: &[usize]) {
 #[test]
 fn a_film_after_kills_is_the_same_directory() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = scene_file(folder.path(), SCENE);
+    // 51 frames, of a size that takes some milliseconds each.
+    let long = SCENE.replace("duration = 4.0", "duration = 40.0").replace("width = 64", "width = 160");
+    let scene = scene_file(folder.path(), &long);
     same_after_kills(&["render", &scene, "--with", "exact", "--renderer", "cpu"], &[1, 8, 17]);
 }
 

@@ -1,11 +1,11 @@
-//! Inputs that are nearly right, by a seed: scenes, stories, stored trajectories, set-ups and baselines of conformance, finished films, command
-//! lines. None may make the
-//! program panic, run without an end or a word, take more than 1 GB of memory, or end with an exit status other than 0, 1 and 2; and a refusal
-//! is shorter than 1 kB and names an option, a field or a file.
+//! Inputs that are nearly right, by a seed: scenes, stories, stored trajectories, set-ups and baselines of conformance,
+//! finished films, command lines. None may make the program panic, run without an end or a word, take more than 1 GB of
+//! memory, or end with an exit status other than 0, 1 and 2; and a refusal is shorter than 1 kB and names an option, a
+//! field or a file.
 //!
-//! Texts and tables are read in this process, thousands a second; a part of them, and all command lines, by the program itself under limits.
-//! `STICKSLIP_FUZZ=10000 cargo test --test it fuzz -- --nocapture` runs so many inputs; `STICKSLIP_FUZZ_SEED` takes others, and
-//! `STICKSLIP_FUZZ_ONLY` a single one by its number.
+//! Texts and tables are read in this process, thousands a second; a part of them, and all command lines, by the program
+//! itself under limits. `STICKSLIP_FUZZ=10000 cargo test --test it fuzz -- --nocapture` runs so many inputs;
+//! `STICKSLIP_FUZZ_SEED` takes others, and `STICKSLIP_FUZZ_ONLY` a single one by its number.
 
 mod commands;
 mod dice;
@@ -21,7 +21,6 @@ use std::any::Any;
 use std::collections::BTreeMap;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 use stickslip::conformance::{Baseline, Setup, setups};
@@ -33,18 +32,15 @@ const SLICE: u64 = 400;
 /// An input in this process takes milliseconds.
 const PATIENCE: u64 = 60;
 
-const SCENE: &str = "title = \"short\"\n[rig]\nxi1 = -0.06\nkappa = 0.1\n[simulation]\nduration = 4.0\namplitude_bound = 50.0\n[engine]\n\
-                     steps_per_period = 64.0\nsubsteps = 1\n[initial]\nstart = \"state\"\nstate = [1.0, 0.5, 0.0, 0.1, 1.0]\n[film]\nwidth = 64\n\
-                     height = 64\nfps = 5\nspeed = 4.0\n[direction]\npanels = []\n";
-const DISK: &str = "title = \"disk\"\n[disk]\nsectors = 4\ncoupling = 0.1\n[[disk.friction]]\nplace = \"foot\"\nstiffness = 0.5\n\
-                    [disk.aerodynamics]\ngiven = \"coefficients\"\ncoefficients = [{ offset = 0, imaginary = 0.01 }, \
-                    { offset = 1, real = 0.02 }, { offset = -1, real = -0.02 }]\n\
-                    [disk_start]\nwaves = [{ nodal_diameter = 1, amplitude = 1.1 }]\n[simulation]\nduration = 20.0\n";
-const MISTUNING: &str = "[disk.mistuning]\nkind = \"normal\"\nstandard_deviation = 0.01\nseed = 1\n";
-
-const BASELINE: &str = "{\"stickslip\": \"0.1.0\", \"command\": \"conformance baseline\", \"parameters\": {\"depth\":\"quick\"},\n\
-                        \"engines\": [\"rapier3d\"], \"rows\": {\n\"chaos | | f64\": {\n\
-                        \"256 | bounded\": {\"verdict\":\"passed\",\"physics\":\"right\",\"found\":1.0,\"tolerance\":0.0}\n}}}\n";
+const SCENE: &str = include_str!("../../inputs/short.toml");
+const DISK: &str = include_str!("../../inputs/disk.toml");
+const MISTUNED: &str = include_str!("../../inputs/mistuned.toml");
+const BASELINE: &str = r#"{"stickslip": "0.1.0", "command": "conformance baseline", "parameters": {"depth":"quick"},
+"engines": ["rapier3d"], "rows": {
+"chaos | | f64": {
+"256 | bounded": {"verdict":"passed","physics":"right","found":1.0,"tolerance":0.0}
+}}}
+"#;
 
 /// What inputs are made from.
 struct Corpus {
@@ -68,7 +64,7 @@ fn words(line: &str) -> Vec<String> {
 impl Corpus {
     fn new() -> Self {
         let built_in = BUILT_IN.iter().chain(&BUILT_IN_DISKS).map(|(_, text)| (*text).to_owned());
-        let own = [SCENE.to_owned(), DISK.to_owned(), format!("{DISK}{MISTUNING}")];
+        let own = [SCENE.to_owned(), DISK.to_owned(), MISTUNED.to_owned()];
         let scenes: Vec<String> = built_in.chain(own).collect();
         let part = SCENE.replace("\n[", "\n[scene.");
         let stories =
@@ -101,7 +97,7 @@ fn playground(corpus: &Corpus) -> tempfile::TempDir {
     let put = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
     put("scene.toml", SCENE.as_bytes());
     put("disk.toml", DISK.as_bytes());
-    put("mistuned.toml", format!("{DISK}{MISTUNING}").as_bytes());
+    put("mistuned.toml", MISTUNED.as_bytes());
     put("broken.toml", b"title = \"x\"\n[rig\n");
     put("binary.toml", &[0, 159, 146, 150, 255, 0, 1]);
     put("story.toml", corpus.stories[1].as_bytes());
@@ -149,7 +145,7 @@ fn changed_film(corpus: &Corpus, dice: &mut Dice) -> tempfile::TempDir {
     let changed = *dice.pick(&texts);
     for (name, bytes) in &corpus.film {
         let bytes = match String::from_utf8(bytes.clone()) {
-            Ok(text) if name == changed => texts::changed(dice, &text, &[text.clone()]).into_bytes(),
+            Ok(text) if name == changed => texts::changed(dice, &text, std::slice::from_ref(&text)).into_bytes(),
             _ => bytes.clone(),
         };
         fs::write(folder.path().join(name), bytes).unwrap();
@@ -192,7 +188,8 @@ fn input(corpus: &Corpus, seed: u64, number: u64) -> Result<String, String> {
             if found == "accepted" && dice.once_in(4) || dice.once_in(20) {
                 let folder = tempfile::tempdir().unwrap();
                 fs::write(folder.path().join("scene.toml"), &text).unwrap();
-                let end = process::run(&words(*dice.pick(&ON_A_SCENE)), folder.path());
+                let line = dice.pick(&ON_A_SCENE);
+                let end = process::run(&words(line), folder.path());
                 return end
                     .map(|end| format!("scene, {}", ended(end)))
                     .map_err(|fault| format!("{fault}\n{}", shown(&text)));
@@ -235,7 +232,8 @@ fn input(corpus: &Corpus, seed: u64, number: u64) -> Result<String, String> {
         }
         6 if dice.once_in(6) => {
             let folder = changed_film(corpus, dice);
-            process::run(&words(*dice.pick(&ON_A_FILM)), folder.path()).map(|end| format!("film, {}", ended(end)))
+            let line = dice.pick(&ON_A_FILM);
+            process::run(&words(line), folder.path()).map(|end| format!("film, {}", ended(end)))
         }
         6 if dice.once_in(5) => {
             let text = texts::changed(dice, BASELINE, &[BASELINE.to_owned()]);

@@ -1,4 +1,5 @@
-//! Stored trajectories that are nearly right: damaged as files, and as tables that are stored faultlessly with something wrong in them.
+//! Stored trajectories that are nearly right: damaged as files, and as tables that are stored faultlessly with
+//! something wrong in them.
 
 use super::dice::Dice;
 use std::path::Path;
