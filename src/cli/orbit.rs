@@ -36,7 +36,9 @@ pub fn run(args: &OrbitArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("orbit")?;
     args.plot.check(args.common.force)?;
     let p = args.rig.parameters()?;
-    let orbit = if args.upper { upper(p)? } else { motions::exact_limit_cycle(p)? };
+    let orbit = if args.upper { upper(p) } else { motions::exact_limit_cycle(p).map_err(Into::into) };
+    let rig = || format!("limit cycle at xi1 = {}, xi2 = {}, kappa = {}, gamma = {}", p.xi1, p.xi2, p.kappa, p.gamma);
+    let orbit = orbit.with_context(rig)?;
     let flow = exact_flow(p)?;
     let floquet = FloquetMultipliers::of(&flow, &orbit)?;
     let measures = orbit.measures(&flow)?;
