@@ -1,5 +1,6 @@
 //! The interface all solvers share: states, trajectories with events, flows and maps.
 
+mod first_motion;
 mod flow;
 mod motion;
 mod sampled;

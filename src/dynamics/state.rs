@@ -1,6 +1,7 @@
 //! Extended state `y = (x, v, f)` of a chain, and the contact state in which it starts.
 
-use crate::model::{ContactState, Direction, OscillatorChain};
+use super::first_motion::contacts_at;
+use crate::model::{ContactState, OscillatorChain};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -110,48 +111,17 @@ impl State {
     }
 
     /// Contact state of each element at the start: slip if `|f| = 1` and the elongation rate, or where that vanishes its first
-    /// derivative that does not, has the sign of `f`; stick otherwise.
+    /// derivative that does not, has the sign of `f`; stick otherwise. What vanishes is decided in exact terms.
     #[must_use]
     pub fn initial_contacts(&self, chain: &OscillatorChain) -> Vec<ContactState> {
-        let acceleration = chain.acceleration(&self.positions, &self.velocities, &self.slider_forces);
-        let first_motion = |index: usize| {
-            let attachment = chain.jenkins()[index].attachment;
-            Direction::of(attachment.elongation(&self.velocities))
-                .or_else(|| Direction::of(attachment.elongation(&acceleration)))
-                .or_else(|| Direction::of(attachment.elongation(&self.jerk(chain, &acceleration))))
-        };
-        (0..chain.sliders())
-            .map(|index| {
-                let force = self.slider_forces[index];
-                let loaded = if force.abs() == 1.0 { first_motion(index) } else { None };
-                match loaded.filter(|motion| Direction::of(force) == Some(*motion)) {
-                    Some(motion) => ContactState::Slip(motion),
-                    None => ContactState::Stick,
-                }
-            })
-            .collect()
-    }
-
-    /// Third derivative of the positions. An element at its slip force loads no further; where its elongation rate
-    /// vanishes it does not matter which.
-    fn jerk(&self, chain: &OscillatorChain, acceleration: &[f64]) -> Vec<f64> {
-        let rates: Vec<f64> = chain
-            .jenkins()
-            .iter()
-            .zip(&self.slider_forces)
-            .map(|(element, f)| {
-                let rate = element.normalised_stiffness() * element.attachment.elongation(&self.velocities);
-                if f.abs() == 1.0 && rate * f > 0.0 { 0.0 } else { rate }
-            })
-            .collect();
-        chain.acceleration(&self.velocities, acceleration, &rates)
+        contacts_at(chain, &self.positions, &self.velocities, &self.slider_forces)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{RigParameters, TwoMassRig};
+    use crate::model::{Direction, RigParameters, TwoMassRig};
 
     fn contact(y: [f64; 5]) -> ContactState {
         let rig = TwoMassRig::new(RigParameters::default()).unwrap();

@@ -111,15 +111,25 @@ impl<'a> ChainWalk<'a> {
             ContactState::Stick => {
                 let force = |y: &[f64]| y[2 * n + j];
                 let excess = motion.series(force, side.sign(), -1.0, span, 1.0);
+                let stiffness = self.chain.jenkins()[j].normalised_stiffness();
+                let excess = excess.of_motion(1.0 + stiffness * self.size(span));
                 first_crossing(&excess, span, Watch::Touches { armed: self.armed[j] })
             }
             ContactState::Slip(direction) => {
                 let attachment = self.chain.jenkins()[j].attachment;
                 let rate = |y: &[f64]| attachment.elongation(&y[n..2 * n]);
                 let scale = self.y.rows(n, n).amax();
-                first_crossing(&motion.series(rate, -direction.sign(), 0.0, span, scale), span, Watch::Crossings)
+                let excess = motion.series(rate, -direction.sign(), 0.0, span, scale);
+                first_crossing(&excess.of_motion(self.size(span) / span), span, Watch::Crossings)
             }
         }
+    }
+
+    /// Largest displacement that the terms of a motion over `span` are computed from.
+    fn size(&self, span: f64) -> f64 {
+        let n = self.chain.oscillators();
+        let springs = self.chain.jenkins().iter().map(|element| 1.0 / element.normalised_stiffness());
+        springs.fold(self.y.rows(0, n).amax().max(self.y.rows(n, n).amax() * span), f64::max)
     }
 
     /// First time within `span` at which a position exceeds the amplitude bound.
@@ -154,6 +164,13 @@ impl<'a> ChainWalk<'a> {
         self.armed[element] = false;
     }
 
+    /// Whether a sticking element does not load further where it reached its slip force: to rounding it only touches it.
+    fn turns_back(&self, end: &DVector<f64>, element: usize, side: Direction) -> bool {
+        let n = self.chain.oscillators();
+        let rate = self.chain.jenkins()[element].attachment.elongation(&end.as_slice()[n..2 * n]);
+        self.contacts[element].is_stick() && side.sign() * rate < 0.0
+    }
+
     fn arm(&mut self, end: &DVector<f64>) {
         let n = self.chain.oscillators();
         for (j, armed) in self.armed.iter_mut().enumerate() {
@@ -176,6 +193,7 @@ impl<'a> ChainWalk<'a> {
         let stop = match (bound, event) {
             (Some(_), _) => Stop::Bound,
             (None, Some((_, element, kind, side))) => {
+                let kind = if self.turns_back(&end, element, side) { EventKind::Grazing } else { kind };
                 self.switch(&mut end, element, kind, side);
                 Stop::Event { element, kind }
             }

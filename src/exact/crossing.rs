@@ -10,7 +10,9 @@
 //!
 //! A cell for which none of them decides is halved. Rules where rounding decides (`tolerance`, 16 roundings of the terms of e):
 //!
-//! - A crossing needs `e > tolerance`. So a phase that starts on its own guard is not triggered again by rounding.
+//! - A crossing needs `e > tolerance`.
+//! - A function that starts at exactly zero is searched as `e / t^n`, n the order of its first derivative that is not zero: a phase that starts
+//!   on its own guard is decided by that derivative, never by the rounding of those before it.
 //! - A maximum with `|e| <= tolerance` is a touch (grazing), not a crossing. It counts only once `e < -tolerance` has been seen
 //!   since the guard was set.
 
@@ -51,6 +53,8 @@ pub(super) fn first_crossing(excess: &Series, to: f64, watch: Watch) -> Verdict 
     if !(excess.at(0.0).value.is_finite() && excess.curvature_bound.is_finite()) {
         return Verdict::Clear;
     }
+    let deflated = excess.deflated();
+    let excess = deflated.as_ref().unwrap_or(excess);
     let mut search = Search { excess, watch };
     search.within((0.0, excess.at(0.0)), (to, excess.at(to)), 0)
 }
@@ -191,6 +195,23 @@ mod tests {
         assert_eq!(first_crossing(&parabola(0.0, 0.0, -1.0), 1.0, Watch::Touches { armed: false }), Verdict::Clear);
         assert_eq!(first_crossing(&parabola(1e-16, 1e-17, -1.0), 1.0, Watch::Touches { armed: false }), Verdict::Clear);
         assert_eq!(first_crossing(&parabola(0.0, -1e-9, 0.0), 1.0, Watch::Touches { armed: false }), Verdict::Clear);
+    }
+
+    /// `e = t^2 (t - 1e-9)`: no rounding of a constant or a slope can hide so early a root.
+    #[test]
+    fn a_phase_that_starts_on_its_guard_leaves_it_by_its_first_derivative_that_is_not_zero() {
+        let cubic = |c2: f64| {
+            let mut coefficients = [0.0; ORDER + 1];
+            coefficients[2..4].copy_from_slice(&[c2, 1.0]);
+            first_crossing(&Series::new(coefficients, 1.0, 1.0), 1.0, Watch::Touches { armed: false })
+        };
+        let Verdict::Crosses(t) = cubic(-1e-9) else { panic!("missed") };
+        // The root is conditioned as rounding of the terms / slope.
+        assert!((t - 1e-9).abs() < 1e-15, "{t}");
+        assert_eq!(cubic(0.0), Verdict::Crosses(0.0));
+        assert_eq!(cubic(-2.0), Verdict::Clear);
+        // Below rounding the second derivative says nothing and the third decides.
+        assert_eq!(cubic(-1e-17), Verdict::Crosses(0.0));
     }
 
     #[test]

@@ -16,7 +16,8 @@
 //!
 //! Rules for events. A slip phase begins when |f| = 1 is exceeded, a stick phase when the sliding velocity changes its sign.
 //! A force that touches |f| = 1 to rounding and turns back is [`crate::dynamics::EventKind::Grazing`], and nothing changes. A
-//! sliding velocity that touches zero and goes on is no event. An event at the very end of the time asked for counts, and the
+//! sliding velocity that touches zero and goes on is no event. Where |f| = 1 and the sliding velocity is zero, the first of its derivatives that
+//! is not zero decides; zero is what lies within the rounding of its terms. Mirrored motions are the same to the bit. An event at the very end of the time asked for counts, and the
 //! contact states given for the time of an event are those after it. Simultaneous events: `chain_walk`.
 
 mod bound;

@@ -4,8 +4,12 @@
 //!
 //! ```text
 //! z(t) - z* = Re( c1 e^(l1 t) w1 + c2 e^(l2 t) w2 ),     w_j = (1, r_j, l_j, l_j r_j) / n_j,
-//! r_j = -(d2 l_j - k) / (l_j^2 + d1 l_j + 1 + k)
+//! r_j = -(d2 l_j - k) / (l_j^2 + d1 l_j + k22) = -(l_j^2 + d1 l_j + k11) / (d2 l_j - k)
 //! ```
+//!
+//! Of the two forms of `r_j` the one with the larger sum is taken: for weak coupling the other sum is a rounding. Then both rows of the
+//! eigenvalue equation hold to rounding, also where eigenvalues are nearly equal. Where both stiffnesses are equal, the modes are exactly in
+//! phase and out of phase.
 //!
 //! The scale `n_j` is chosen so that the event function is the plain sum `q = Re c1 + Re c2`: `n_j = 1` while sticking
 //! (`q = x1 - x1*`), `n_j = l_j` while slipping (`q = v1`). Coordinates are stored as four reals `(Re c1, Im c1, Re c2, Im c2)`
@@ -82,6 +86,10 @@ impl Coefficients {
 
     /// The two eigenvalues with positive imaginary part, slow one first; `None` if a mode is not underdamped.
     fn eigenvalues(&self) -> Option<[Complex<f64>; 2]> {
+        if self.is_symmetric() {
+            let [in_phase, out_of_phase] = [1.0, -1.0].map(|ratio| self.symmetric_eigenvalue(ratio));
+            return Some([in_phase?, out_of_phase?]);
+        }
         let Self { stiffness1, stiffness2, kappa, d1, d2 } = *self;
         #[rustfmt::skip]
         let system = Matrix4::new(
@@ -94,6 +102,26 @@ impl Coefficients {
         let mut upper = all.iter().filter(|l| l.im > SMALLEST_SINE * l.norm()).map(|&l| self.polished(l));
         let (first, second) = (upper.next()?, upper.next()?);
         Some(if first.im <= second.im { [first, second] } else { [second, first] })
+    }
+
+    /// Whether both masses are held alike.
+    fn is_symmetric(&self) -> bool {
+        self.stiffness1 == self.stiffness2
+    }
+
+    /// Of the mode `x2 = ratio x1`, ratio +1 or -1, of a symmetric rig: `l^2 + (d1 + ratio d2) l + k11 - ratio kappa = 0`.
+    fn symmetric_eigenvalue(&self, ratio: f64) -> Option<Complex<f64>> {
+        let half_damping = 0.5 * (self.d1 + ratio * self.d2);
+        let stiffness = self.stiffness1 - ratio * self.kappa;
+        let sine = (stiffness - half_damping * half_damping).sqrt();
+        (sine > SMALLEST_SINE * stiffness.sqrt()).then(|| self.polished(Complex::new(-half_damping, sine)))
+    }
+
+    /// `r = x2/x1` of the mode of an eigenvalue.
+    fn ratio(&self, l: Complex<f64>) -> Complex<f64> {
+        let rows = [self.stiffness1, self.stiffness2].map(|stiffness| l * (l + self.d1) + stiffness);
+        let coupling = l * self.d2 - self.kappa;
+        if rows[1].norm() >= rows[0].norm() { -coupling / rows[1] } else { -rows[0] / coupling }
     }
 
     /// Two Newton steps on the characteristic polynomial: the QR iteration leaves a few roundings, and an error in an
@@ -110,9 +138,13 @@ impl Coefficients {
 impl Modes {
     pub(super) fn new(coefficients: &Coefficients, scaling: Scaling, cell: f64) -> Option<Self> {
         let eigenvalues = coefficients.eigenvalues()?;
-        let vectors = eigenvalues.map(|l| {
-            let ratio =
-                -(l * coefficients.d2 - coefficients.kappa) / (l * (l + coefficients.d1) + coefficients.stiffness2);
+        let ratios = if coefficients.is_symmetric() {
+            [1.0, -1.0].map(|ratio| Complex::new(ratio, 0.0))
+        } else {
+            eigenvalues.map(|l| coefficients.ratio(l))
+        };
+        let vectors = [0, 1].map(|j: usize| {
+            let (l, ratio) = (eigenvalues[j], ratios[j]);
             let scale = match scaling {
                 Scaling::Position => Complex::new(1.0, 0.0),
                 Scaling::Velocity => l,
@@ -152,6 +184,20 @@ impl Modes {
             fastest = set.eigenvalues()?.iter().map(|l| l.norm()).fold(fastest, f64::max);
         }
         Some(CELL_ANGLE / fastest)
+    }
+
+    /// The coordinates nearest to `c`, a few roundings away, with `q = value`.
+    #[inline]
+    pub(super) fn with_value(&self, mut c: Modal, value: f64) -> Modal {
+        c[0] += value - (c[0] + c[2]);
+        c
+    }
+
+    /// The coordinates near `c`, a few roundings away, with the same `q` and `q' = 0`.
+    #[inline]
+    pub(super) fn without_slope(&self, mut c: Modal) -> Modal {
+        c[1] += self.slope(&c) / self.eigenvalues[0].im;
+        c
     }
 
     /// Coordinates after a time of any length.

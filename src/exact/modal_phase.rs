@@ -8,14 +8,17 @@
 //! slip:  z* = -s,         s = K_slip^-1  (g, 0),   v1 = q,                    left through v1 = 0 downwards
 //! ```
 //!
-//! and a switch is one real 4x4 product between the two sets of modal coordinates, plus constants.
+//! and a switch is one real 4x4 product between the two sets of modal coordinates, plus constants. What defines a switch holds exactly
+//! behind it: `limit`, the value of q at which f = +1, is that of q itself where a slip has just ended, and v1 = 0 there; a
+//! slip starts with the velocity at which the stick phase ended. Far equilibria cost digits in all else, never there.
 
 use super::modal::{CELL_ANGLE, Coefficients, Modal, Modes, Scaling, rotated};
 use crate::model::{ContactState, Direction, RigParameters};
 use nalgebra::{Matrix4, Vector4};
 
-/// Largest equilibrium displacement of a slip phase for which subtracting it costs at most three digits.
-const FARTHEST_EQUILIBRIUM: f64 = 1e3;
+/// Largest equilibrium displacement of a slip phase for which subtracting it costs at most two digits: times of switches stay within
+/// 1e-12 then.
+const FARTHEST_EQUILIBRIUM: f64 = 1e2;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Contact {
@@ -31,7 +34,17 @@ pub(super) struct Phase {
     pub(super) contact: Contact,
     /// Position of the held slider in the frame; unused while slipping.
     pub(super) anchor: f64,
+    /// Value of q at which f = +1; unused while slipping.
+    pub(super) limit: f64,
+    /// Whether a stick phase starts at f = +1 with v1 = 0, exactly.
+    pub(super) on_limit: bool,
     pub(super) c: Modal,
+}
+
+impl Phase {
+    fn slip(sign: f64, c: Modal) -> Self {
+        Self { sign, contact: Contact::Slip, anchor: 0.0, limit: 0.0, on_limit: false, c }
+    }
 }
 
 /// How a phase ends.
@@ -112,13 +125,22 @@ impl ModalPair {
     /// The phase that starts at `y = (x1, x2, v1, v2, f)` in the given contact state.
     pub(super) fn start(&self, [x1, x2, v1, v2, f]: [f64; 5], contact: ContactState) -> Phase {
         let (sign, contact) = match contact {
-            ContactState::Stick => (1.0, Contact::Stick),
+            ContactState::Stick => (frame_of([f, v1, x1, v2, x2]), Contact::Stick),
             ContactState::Slip(direction) => (direction.sign(), Contact::Slip),
         };
-        let anchor = sign * (x1 - f);
+        let [x1, x2, v1, v2, f] = [x1, x2, v1, v2, f].map(|component| sign * component);
+        let anchor = x1 - f;
         let [e1, e2] = self.equilibrium(contact, anchor);
-        let c = self.modes(contact).to_modal * Vector4::new(sign * x1 - e1, sign * x2 - e2, sign * v1, sign * v2);
-        Phase { sign, contact, anchor, c: c.into() }
+        let modes = self.modes(contact);
+        let c = (modes.to_modal * Vector4::new(x1 - e1, x2 - e2, v1, v2)).into();
+        match contact {
+            Contact::Slip => Phase { c: modes.with_value(c, v1), ..Phase::slip(sign, c) },
+            Contact::Stick => {
+                let on_limit = f == 1.0 && v1 == 0.0;
+                let c = if on_limit { modes.without_slope(c) } else { c };
+                Phase { sign, contact, anchor, limit: c[0] + c[2] + (1.0 - f), on_limit, c }
+            }
+        }
     }
 
     /// Equilibrium `(x1*, x2*)` in the frame.
@@ -133,10 +155,7 @@ impl ModalPair {
     #[inline]
     pub(super) fn guards(&self, phase: &Phase) -> [f64; 2] {
         match phase.contact {
-            Contact::Stick => {
-                let offset = phase.anchor * (self.stick_equilibrium[0] - 1.0);
-                [-1.0 - offset, 1.0 - offset]
-            }
+            Contact::Stick => [phase.limit - 2.0, phase.limit],
             Contact::Slip => [0.0, f64::INFINITY],
         }
     }
@@ -147,7 +166,7 @@ impl ModalPair {
         let z = self.modes(phase.contact).to_physical * Vector4::from(*c);
         let (x1, x2) = (z[0] + e1, z[1] + e2);
         let f = match phase.contact {
-            Contact::Stick => (x1 - phase.anchor).clamp(-1.0, 1.0),
+            Contact::Stick => (1.0 + (c[0] + c[2] - phase.limit)).clamp(-1.0, 1.0),
             Contact::Slip => 1.0,
         };
         [x1, x2, z[2], z[3], f].map(|component| phase.sign * component)
@@ -180,7 +199,7 @@ impl ModalPair {
             (Contact::Slip, End::Lower) => self.to_stick(phase, c),
             (Contact::Stick, End::Upper) => self.to_slip(phase, c, 1.0),
             (Contact::Stick, End::Lower) => self.to_slip(phase, c, -1.0),
-            _ => Phase { c: *c, ..*phase },
+            _ => Phase { c: *c, on_limit: false, ..*phase },
         }
     }
 
@@ -190,14 +209,16 @@ impl ModalPair {
         let x1 = self.slip.to_physical.row(0).transpose().dot(&c) - self.slip_equilibrium[0];
         let anchor = x1 - 1.0;
         let c = self.slip_to_stick * c + (self.slip_to_stick_constant - self.anchor_in_stick * anchor);
-        Phase { sign: phase.sign, contact: Contact::Stick, anchor, c: c.into() }
+        let c = self.stick.without_slope(c.into());
+        Phase { sign: phase.sign, contact: Contact::Stick, anchor, limit: c[0] + c[2], on_limit: true, c }
     }
 
     #[inline]
     fn to_slip(&self, phase: &Phase, c: &Modal, side: f64) -> Phase {
+        let v1 = side * self.stick.slope(c);
         let moved = self.stick_to_slip * Vector4::from(*c) + self.anchor_in_slip * phase.anchor;
-        let c = moved * side + self.stick_to_slip_constant;
-        Phase { sign: side * phase.sign, contact: Contact::Slip, anchor: 0.0, c: c.into() }
+        let c = self.slip.with_value((moved * side + self.stick_to_slip_constant).into(), v1);
+        Phase::slip(side * phase.sign, c)
     }
 
     /// Coordinates at `time` after the start of a phase.
@@ -210,6 +231,11 @@ impl ModalPair {
     pub(super) fn after_block(modes: &Modes, c: &Modal) -> Modal {
         rotated(c, &modes.coarse[modes.cells])
     }
+}
+
+/// The frame of a stick phase: the sign of the first component that is not zero, so that mirrored motions are the same numbers.
+fn frame_of(components: [f64; 5]) -> f64 {
+    components.into_iter().find(|component| *component != 0.0).map_or(1.0, f64::signum)
 }
 
 /// `K^-1 (g, 0)`.

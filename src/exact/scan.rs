@@ -5,7 +5,8 @@
 //!
 //! - if `q'` has one sign throughout (`|q'(0) + q'(h)|/2 > M2 h/2`) there is at most one crossing, and whether there is one
 //!   shows at the ends;
-//! - the first cell of a stick phase, where `q` starts on the guard with `q' = 0`, is clear if `q'' + M3 h/3 < 0`;
+//! - the first cell of a stick phase, where `q` starts on the guard with `q' = 0`, is clear if `q'' + M3 h/3 < 0`; otherwise the search
+//!   takes value and slope as the zeros they are;
 //! - anything else goes to the search by halving of [`super::crossing`].
 
 use super::crossing::{Verdict, Watch, first_crossing};
@@ -61,7 +62,7 @@ impl ModalPair {
                 jerk: weighted(&modes.jerk_weights),
                 first: number == 0,
                 armed,
-                tolerance: 16.0 * f64::EPSILON * (m1 + m2 + guards[0].abs()),
+                tolerance: 16.0 * f64::EPSILON * (m1 + m2 + largest_guard(phase)),
             };
             let found = block.scan(cells);
             let [e1, e2] = self.equilibrium(phase.contact, phase.anchor);
@@ -82,6 +83,14 @@ impl ModalPair {
             }
         }
         Exit { end: End::Limit, time: limit, c: self.advanced(phase, limit) }
+    }
+}
+
+/// Size of what a guard is computed from: the normalised forces, of size 1, while sticking.
+fn largest_guard(phase: &Phase) -> f64 {
+    match phase.contact {
+        Contact::Stick => phase.limit.abs() + 2.0,
+        Contact::Slip => 0.0,
     }
 }
 
@@ -110,10 +119,7 @@ impl Block<'_> {
     /// Whether a stick phase that starts on its upper guard moves away from it throughout the first cell, and far from the lower.
     fn starts_inwards(&self) -> bool {
         let q = self.c[0] + self.c[2];
-        self.phase.contact == Contact::Stick
-            && q > self.guards[0] + self.bulge
-            && self.modes.slope(&self.c) <= 1e-12 * self.jerk
-            && self.modes.curvature(&self.c) + 1.01 * self.jerk < 0.0
+        self.phase.on_limit && q > self.guards[0] + self.bulge && self.modes.curvature(&self.c) + 1.01 * self.jerk < 0.0
     }
 
     /// Whether `q` has been off its guards by node `n`.
@@ -172,8 +178,12 @@ impl Block<'_> {
             }
             let mut excess = q.map(|q| side * q);
             excess[0] -= side * guard;
-            let scale = m1 + m2 + if self.phase.contact == Contact::Stick { guard.abs() } else { 0.0 };
-            first_crossing(&Series::new(excess, self.modes.cell, scale), self.modes.cell, watch)
+            if self.first && n == 1 && self.phase.on_limit && side > 0.0 {
+                excess[..2].fill(0.0);
+            }
+            let scale = m1 + m2 + largest_guard(self.phase);
+            let excess = Series::new(excess, self.modes.cell, scale).of_motion(m1 + m2);
+            first_crossing(&excess, self.modes.cell, watch)
         };
         let (up, down) = (verdict(1.0, self.guards[1]), verdict(-1.0, self.guards[0]));
         let (verdict, end) = match (up.time(), down.time()) {
@@ -182,9 +192,16 @@ impl Block<'_> {
             (None, Some(_)) => (down, End::Lower),
             _ => (up, End::Upper),
         };
-        let end = if matches!(verdict, Verdict::Touches(_)) { End::Graze } else { end };
         let time = verdict.time()?;
-        Some(Exit { end, time: (n - 1) as f64 * self.modes.cell + time, c: self.modes.after(left, time) })
+        let c = self.modes.after(left, time);
+        let end = if matches!(verdict, Verdict::Touches(_)) || self.turns_back(end, &c) { End::Graze } else { end };
+        Some(Exit { end, time: (n - 1) as f64 * self.modes.cell + time, c })
+    }
+
+    /// Whether a stick phase does not load further where it reached its slip force: to rounding it only touches it.
+    fn turns_back(&self, end: End, c: &Modal) -> bool {
+        let side = if end == End::Upper { 1.0 } else { -1.0 };
+        self.phase.contact == Contact::Stick && side * self.modes.slope(c) < 0.0
     }
 
     /// First time within `until` at which a position exceeds the bound.

@@ -24,6 +24,8 @@ pub(super) struct Series {
     pub(super) jerk_bound: f64,
     /// What counts as zero.
     pub(super) tolerance: f64,
+    /// What counts as zero among the terms of the motion alone, without the constant it starts from.
+    motion_tolerance: f64,
 }
 
 /// Value and first two derivatives.
@@ -45,7 +47,33 @@ impl Series {
                 jerk_bound = jerk_bound * span + factor * (k - 2) as f64 * coefficients[k].abs();
             }
         }
-        Self { coefficients, span, curvature_bound, jerk_bound, tolerance: ROUNDINGS * f64::EPSILON * scale }
+        let tolerance = ROUNDINGS * f64::EPSILON * scale;
+        Self { coefficients, span, curvature_bound, jerk_bound, tolerance, motion_tolerance: tolerance }
+    }
+
+    /// The same function, of a motion whose terms are of another size than `scale` of [`Self::new`]: their rounding decides
+    /// which derivatives of a function that starts at zero are zero.
+    pub(super) fn of_motion(self, scale: f64) -> Self {
+        Self { motion_tolerance: ROUNDINGS * f64::EPSILON * scale, ..self }
+    }
+
+    /// For a function that is exactly zero at the start: the function over `t^n`, n the order of its first derivative there
+    /// that rounding lets tell from zero. It crosses zero where the function does, and its value at the start has the sign the
+    /// function takes next. `None` where the function does not start at zero; the zero function where no derivative is left.
+    pub(super) fn deflated(&self) -> Option<Self> {
+        if self.coefficients[0] != 0.0 {
+            return None;
+        }
+        let mut power = 1.0;
+        let mut order = 0;
+        while order < ORDER && self.coefficients[order].abs() * power <= self.motion_tolerance {
+            power *= self.span;
+            order += 1;
+        }
+        let mut coefficients = [0.0; ORDER + 1];
+        coefficients[..=ORDER - order].copy_from_slice(&self.coefficients[order..]);
+        let scale = self.motion_tolerance / (ROUNDINGS * f64::EPSILON) / power;
+        Some(Self::new(coefficients, self.span, scale))
     }
 
     pub(super) fn at(&self, t: f64) -> Jet {

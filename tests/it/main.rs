@@ -89,6 +89,7 @@ mod scenes;
 mod shaders;
 #[cfg(feature = "cli")]
 mod shared_model;
+mod slip_limit;
 mod small_disk;
 #[cfg(feature = "render")]
 mod small_scene;

@@ -115,6 +115,7 @@ impl<'a> SparseWalk<'a> {
         let stop = match (bound, event) {
             (Some(_), _) => Stop::Bound,
             (None, Some((_, element, kind, side))) => {
+                let kind = if self.turns_back(element, side) { EventKind::Grazing } else { kind };
                 self.switch(element, kind, side);
                 Stop::Event { element, kind }
             }
@@ -142,6 +143,9 @@ impl<'a> SparseWalk<'a> {
         series.excursions(span, true, &mut self.rates_go);
         let n = self.system.oscillators;
         let fastest = self.y[n..2 * n].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let springs = self.system.elements.iter().map(|element| 1.0 / element.normalised_stiffness);
+        let widest = self.y[..n].iter().fold(fastest * span, |m, x| m.max(x.abs()));
+        let size = springs.fold(widest, f64::max);
         let mut first: Option<(f64, usize, EventKind, Direction)> = None;
         for (j, &contact) in self.contacts.iter().enumerate() {
             let to = first.map_or(span, |(time, ..)| time);
@@ -154,6 +158,7 @@ impl<'a> SparseWalk<'a> {
                             continue;
                         }
                         let excess = series.force_excess(j, side.sign(), to);
+                        let excess = excess.of_motion(1.0 + self.system.elements[j].normalised_stiffness * size);
                         let (time, kind) = match first_crossing(&excess, to, Watch::Touches { armed: self.armed[j] }) {
                             Verdict::Clear => continue,
                             Verdict::Touches(time) => (time, EventKind::Grazing),
@@ -169,7 +174,7 @@ impl<'a> SparseWalk<'a> {
                     if rate - self.rates_go[j] > CLEARANCE * fastest {
                         continue;
                     }
-                    let excess = series.stop_excess(j, direction.sign(), to, fastest);
+                    let excess = series.stop_excess(j, direction.sign(), to, fastest).of_motion(size / to);
                     if let Some(time) = first_crossing(&excess, to, Watch::Crossings).time()
                         && first.is_none_or(|(earliest, ..)| time < earliest)
                     {
@@ -213,6 +218,12 @@ impl<'a> SparseWalk<'a> {
         };
         // Shared with the pieces of a dense motion: copied only where they still hold it.
         Arc::make_mut(&mut self.contacts)[element] = next;
+    }
+
+    /// Whether a sticking element does not load further where it reached its slip force: to rounding it only touches it.
+    fn turns_back(&self, element: usize, side: Direction) -> bool {
+        let velocities = &self.y[self.system.oscillators..];
+        self.contacts[element].is_stick() && side.sign() * self.system.elements[element].elongation(velocities) < 0.0
     }
 
     fn arm(&mut self) {
