@@ -260,6 +260,21 @@ fn rows_of_native_friction_fail_only_where_the_slider_rings_ever_louder() {
     assert_eq!(failures(&unexpected), Vec::<String>::new());
 }
 
+/// Some minutes: `cargo test --test it every_row_of_native_friction -- --ignored --nocapture`. Without the two-mass
+/// rig, whose rows `stickslip conformance` computes.
+#[test]
+#[ignore = "takes minutes"]
+fn every_row_of_native_friction_under_its_cycle_is_as_predicted() {
+    let scenario = registry().into_iter().find(|s| s.id() == "native_friction").unwrap();
+    let cases = scenario.cases(Depth::Full).into_iter().filter(|case| !case.variant.starts_with("limit cycle"));
+    let rows: Vec<Row> = cases.flat_map(|case| scenario.run(&case, &Rapier).unwrap()).collect();
+    for quantity in ["loop_area", "mean_slip_force", "slip_start_delay", "slip_stop_delay"] {
+        let count = |verdict| rows.iter().filter(|row| row.quantity == quantity && row.verdict == verdict).count();
+        println!("{quantity}: {} passed, {} not run", count(Verdict::Passed), count(Verdict::NotRun));
+    }
+    assert_eq!(failures(&rows), Vec::<String>::new());
+}
+
 #[test]
 fn the_loop_area_of_a_slider_body_is_that_of_its_equation_of_motion() {
     // Computed outside the project, m s'' = (x - s) - sgn s' integrated phase by phase with 25 digits.

@@ -315,6 +315,7 @@ fn nearly_right_inputs_are_answered() {
     let mut faults = Vec::new();
     for (number, result) in &results {
         match result {
+            Ok(end) if end.contains("Announced") => println!("input {number} of seed {seed} goes on: {end}"),
             Ok(end) => *tally.entry(end).or_default() += 1,
             Err(fault) => faults.push(format!("input {number} of seed {seed}: {fault}")),
         }

@@ -13,8 +13,8 @@ const MEMORY: u32 = 1_200_000;
 #[derive(Debug, Clone, PartialEq)]
 pub enum End {
     Status(i32),
-    /// It ran out of its time, but had said that it is at work.
-    Announced,
+    /// It ran out of its time, but had said that it is at work, as in the last line that it said.
+    Announced(String),
 }
 
 /// Runs in `folder`; a fault is what must never happen.
@@ -41,16 +41,23 @@ pub fn run(arguments: &[String], folder: &Path) -> Result<End, String> {
         Some(2) => {
             refusal(arguments, &message).map(|()| End::Status(2)).map_err(|fault| format!("{fault}: {}", told()))
         }
-        Some(137) | None if is_at_work(&message) => Ok(End::Announced),
+        Some(137) | None if is_at_work(&message) => {
+            Ok(End::Announced(message.lines().last().unwrap_or_default().to_owned()))
+        }
         Some(137) | None => Err(format!("no end within {SECONDS} s, and no word: {}", told())),
         Some(134) => Err(format!("aborted, memory perhaps: {}", told())),
         Some(code) => Err(format!("exit status {code}: {}", told())),
     }
 }
 
-/// A heartbeat or an estimate.
+/// A heartbeat, `3 of 100 frames`, or an estimate of the time.
 fn is_at_work(message: &str) -> bool {
-    [" of ", "about ", "estimate"].iter().any(|word| message.contains(word))
+    let number = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
+    let counts = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        words.windows(3).any(|w| number(w[0]) && w[1] == "of" && number(w[2]))
+    };
+    message.lines().any(|line| counts(line) || line.contains("estimate") || line.contains(" left"))
 }
 
 /// A refusal is short, and names an option, a field or a file.
