@@ -1,6 +1,7 @@
 //! The program with bounds: processor time, memory and size of files.
 
 use std::fs;
+use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -36,17 +37,17 @@ pub fn run(arguments: &[String], folder: &Path) -> Result<End, String> {
     if message.contains("panicked") {
         return Err(format!("panic: {}", told()));
     }
-    match output.status.code() {
-        Some(0 | 1) => Ok(End::Status(output.status.code().unwrap_or_default())),
-        Some(2) => {
+    match (output.status.code(), output.status.signal()) {
+        (Some(status @ (0 | 1)), _) => Ok(End::Status(status)),
+        (Some(2), _) => {
             refusal(arguments, &message).map(|()| End::Status(2)).map_err(|fault| format!("{fault}: {}", told()))
         }
-        Some(137) | None if is_at_work(&message) => {
+        // Killed at the end of its time, by the kernel or by `timeout`.
+        (Some(137), _) | (None, Some(9 | 24)) if is_at_work(&message) => {
             Ok(End::Announced(message.lines().last().unwrap_or_default().to_owned()))
         }
-        Some(137) | None => Err(format!("no end within {SECONDS} s, and no word: {}", told())),
-        Some(134) => Err(format!("aborted, memory perhaps: {}", told())),
-        Some(code) => Err(format!("exit status {code}: {}", told())),
+        (Some(137), _) | (None, Some(9 | 24)) => Err(format!("no end within {SECONDS} s, and no word: {}", told())),
+        (code, signal) => Err(format!("exit status {code:?}, signal {signal:?}: {}", told())),
     }
 }
 
