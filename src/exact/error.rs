@@ -22,6 +22,10 @@ pub enum ExactError {
     StartsBeyondBound { field: &'static str, index: usize, found: f64, bound: f64 },
     #[error("the motion leaves the amplitude bound {bound} at time {time}, before {asked}: ask for a shorter span")]
     Diverged { time: f64, bound: f64, asked: f64 },
+    #[error(
+        "by time {time} of {asked} the motion takes {found} pieces, more than fit into memory: shorten it, or take out rates that are far faster than the others"
+    )]
+    TooManyPieces { time: f64, asked: f64, found: usize },
     #[error("tangent vectors have {found} components, expected {expected}: one per state variable")]
     TangentLength { found: usize, expected: usize },
     #[error(

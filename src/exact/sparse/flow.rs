@@ -23,6 +23,9 @@ pub struct SparseFlow {
     pub(super) amplitude_bound: f64,
 }
 
+/// Bytes that the pieces of a motion may take.
+const MEMORY: usize = 400 << 20;
+
 impl SparseFlow {
     /// With an amplitude bound of 1000.
     #[must_use]
@@ -53,12 +56,18 @@ impl SparseFlow {
     /// The motion from `initial` at time 0 to `t_end`, with dense output.
     ///
     /// # Errors
-    /// [`ExactError`] for an initial state or time that cannot be used, and [`ExactError::Stalled`].
+    /// [`ExactError`] for an initial state or time that cannot be used, [`ExactError::Stalled`], and
+    /// [`ExactError::TooManyPieces`]: rates far faster than the others cut the motion small.
     pub fn solve(&self, initial: &State, t_end: f64) -> Result<ExactTrajectory, ExactError> {
         let (mut pieces, mut events, mut outcome) = (Vec::new(), Vec::new(), Outcome::Completed);
         let mut walk = self.walk(initial, t_end)?;
         let mut contacts = Arc::clone(&walk.contacts);
+        let most = MEMORY / (self.system.length() * size_of::<f64>() + size_of::<Piece>());
         while let Some(leg) = walk.advance()? {
+            if pieces.len() >= most {
+                let time = leg.end_time();
+                return Err(ExactError::TooManyPieces { time, asked: t_end, found: pieces.len() });
+            }
             if let Stop::Event { element, kind } = leg.stop {
                 events.push(Event { time: leg.end_time(), element, kind, state: self.state(&walk.y) });
             }

@@ -85,4 +85,9 @@ fn what_fuzzing_found_is_refused_with_what_it_is_about() {
     write_table(&path, &table).unwrap();
     let picture = folder.path().join("p.png");
     refused(&["render", "--trajectory", name, "--at", "0", "-o", picture.to_str().unwrap()], &[name, "no rows"]);
+    // An abort: rates of 4e9 cut the motion into more pieces than fit into memory.
+    let fast = include_str!("../../inputs/disk.toml").replace("imaginary = 0.01", "imaginary = 4294967296");
+    let scene = scene_file(folder.path(), &fast);
+    let film = ["--with", "exact", "--renderer", "cpu", "--t-end", "2", "--at", "1", "--size", "64x64", "-o"];
+    refused(&[&["render", &scene][..], &film, &[picture.to_str().unwrap()]].concat(), &["pieces", "memory"]);
 }
