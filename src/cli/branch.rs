@@ -1,10 +1,10 @@
 //! `branch`: the limit cycles over xi1, through the fold.
 
 use super::Verdict;
-use super::analysis::{RigInput, exact_flow, lower_branch, special_json};
+use super::analysis::{RigInput, exact_flow, lower_branch, search_line, searched, special_json};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
-use crate::orbit::{Branch, BranchPoint, Heading};
+use crate::orbit::{Branch, BranchEnd, BranchPoint, Heading};
 use crate::report::{Chart, Series, Style, Tint};
 use anyhow::ensure;
 use clap::Args;
@@ -46,9 +46,10 @@ pub fn run(args: &BranchArgs) -> anyhow::Result<Verdict> {
         "--amplitude = {} is not allowed: it must be greater than 1 and at most 900",
         args.amplitude
     );
-    let p = args.rig.parameters()?;
+    let p = args.rig.parameters_but_xi1("branch")?;
     let points = lower_branch(p, Heading::Decreasing)?.up_to_amplitude(args.amplitude);
-    let branch = Branch::follow(points, |_| false)?;
+    let branch = Branch::explore(points, |_| false);
+    let verdict = if matches!(branch.end, BranchEnd::Lost { .. }) { Verdict::Failed } else { Verdict::Done };
     let inside = |xi1: f64| (to..=from).contains(&xi1);
     let rows: Vec<Value> =
         branch.points.iter().filter(|point| inside(point.parameters.xi1)).map(row).collect::<anyhow::Result<_>>()?;
@@ -61,8 +62,8 @@ pub fn run(args: &BranchArgs) -> anyhow::Result<Verdict> {
         });
         let document =
             Document::new("branch", parameters).with("points", json!(rows)).with("special_points", json!(special));
-        print(&document.text()?)?;
-        return Ok(Verdict::Done);
+        print(&document.with("searched", searched(&branch)).text()?)?;
+        return Ok(verdict);
     }
     print("xi1              a1               a2               angular_freq     energy           stable")?;
     for row in &rows {
@@ -73,7 +74,8 @@ pub fn run(args: &BranchArgs) -> anyhow::Result<Verdict> {
     for point in &special {
         print(&format!("{} at xi1 = {}, a1 = {}", point["type"], point["xi1"], point["a1"]))?;
     }
-    Ok(Verdict::Done)
+    print(&search_line(&branch))?;
+    Ok(verdict)
 }
 
 pub fn row(point: &BranchPoint) -> anyhow::Result<Value> {

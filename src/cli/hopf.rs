@@ -1,13 +1,14 @@
 //! `hopf`: secondary Hopf points and fold of the limit cycle, for one parameter set or over a range of one parameter.
 
 use super::Verdict;
-use super::analysis::{RigInput, exact_flow, lower_branch, special_json};
+use super::analysis::{RigInput, end_of, exact_flow, lower_branch, searched, special_json};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
 use crate::model::{RigParameter, RigParameters};
-use crate::orbit::{Bifurcation, Branch, Criticality, Heading, NormalForm, OrbitError, SpecialPoint};
+use crate::orbit::{
+    Bifurcation, Branch, BranchEnd, Criticality, Heading, NormalForm, OrbitError, Passage, SpecialPoint,
+};
 use crate::report::{Chart, Series, Style, Tint};
-use anyhow::{Context, ensure};
 use clap::Args;
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
@@ -61,27 +62,63 @@ fn parse_vary(text: &str) -> Result<Vary, String> {
 pub fn run(args: &HopfArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("hopf")?;
     args.plot.check(args.common.force)?;
-    let p = args.rig.parameters()?;
+    let p = args.rig.parameters_but_xi1("hopf")?;
     let mut parameters = json!({"xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma});
-    let document = match args.vary {
+    let (document, rows) = match args.vary {
         None => {
             args.plot.draw(|| branch_chart(p))?;
-            points(p)?.into_iter().fold(Document::new("hopf", parameters), |d, (key, value)| d.with(&key, value))
+            let fields = points(p)?;
+            let document = Document::new("hopf", parameters);
+            let document = fields.iter().fold(document, |d, (key, value)| d.with(key, value.clone()));
+            (document, vec![Value::Object(fields)])
         }
         Some(vary) => {
             let name = vary.parameter.name();
             parameters["vary"] = json!({"name": name, "from": vary.from, "to": vary.to, "count": vary.count});
-            let rows: Vec<Value> = (0..vary.count)
-                .into_par_iter()
-                .map(|n| row(p, vary, n).with_context(|| format!("value {n} of {name}")))
-                .collect::<anyhow::Result<_>>()?;
+            let rows: Vec<Value> = (0..vary.count).into_par_iter().map(|n| row(p, vary, n)).collect();
             args.plot.draw(|| Ok(curve_chart(name, &rows)))?;
-            Document::new("hopf", parameters).with("rows", json!(rows))
+            (Document::new("hopf", parameters).with("rows", json!(rows)), rows)
         }
     };
-    // A short table is no easier to read than the document.
-    print(&document.text()?)?;
-    Ok(Verdict::Done)
+    if args.common.json {
+        print(&document.text()?)?;
+    } else {
+        let name = args.vary.map(|vary| vary.parameter.name());
+        rows.iter().try_for_each(|row| print(&text(row, name)))?;
+    }
+    let failed = rows.iter().any(|row| row.get("error").is_some());
+    Ok(if failed { Verdict::Failed } else { Verdict::Done })
+}
+
+/// What was found at one parameter set, a line each.
+fn text(row: &Value, varied: Option<&str>) -> String {
+    let mut lines: Vec<String> = varied.map(|name| format!("{name} = {}", row[name])).into_iter().collect();
+    if let Some(error) = row.get("error").and_then(Value::as_str) {
+        lines.push(format!("  not computed: {error}"));
+    }
+    for (list, remark) in [("secondary_hopf", ""), ("beyond_fold", ", beyond the fold")] {
+        for point in row[list].as_array().into_iter().flatten() {
+            let kind = point["criticality"].as_str().map_or(String::new(), |kind| format!(", {kind}"));
+            let side = point["side"].as_str().unwrap_or_default();
+            lines.push(format!(
+                "  secondary Hopf point, {side}: xi1 = {}, a1 = {}{kind}{remark}",
+                point["xi1"], point["a1"]
+            ));
+        }
+    }
+    if row["secondary_hopf"].as_array().is_some_and(Vec::is_empty) {
+        lines.push("  no secondary Hopf point before the fold".to_owned());
+    }
+    match &row["fold"] {
+        Value::Object(fold) => lines.push(format!("  fold: xi1 = {}, a1 = {}", fold["xi1"], fold["a1"])),
+        _ => lines.push("  no fold".to_owned()),
+    }
+    let searched = &row["searched"];
+    if let Some(end) = searched["end"].as_str() {
+        lines.push(format!("  searched up to xi1 = {}, a1 = {}: {end}", searched["xi1"], searched["a1"]));
+        lines.extend(searched["pairs"].as_str().map(|how| format!("  {how}")));
+    }
+    lines.join("\n")
 }
 
 /// The branch up to twice the amplitude of a fold near the nominal one.
@@ -123,33 +160,31 @@ fn curve_chart(name: &str, rows: &[Value]) -> Chart {
     }
 }
 
-fn row(p: RigParameters, vary: Vary, n: usize) -> anyhow::Result<Value> {
+fn row(p: RigParameters, vary: Vary, n: usize) -> Value {
     let value = vary.from + (vary.to - vary.from) * (n as f64 / (vary.count - 1) as f64);
-    let at = p.with(vary.parameter, value).validated()?;
-    let mut row = points(at)?;
+    let at = p.with(vary.parameter, value).validated().map_err(anyhow::Error::from);
+    let mut row = at.and_then(points).unwrap_or_else(|error| {
+        let mut row = Map::new();
+        row.insert("error".to_owned(), json!(super::message(&error)));
+        row
+    });
     row.insert(vary.parameter.name().to_owned(), json!(value));
-    Ok(Value::Object(row))
+    Value::Object(row)
 }
 
-/// The fields of one parameter set.
+/// The fields of one parameter set; `error` says where the branch was lost.
 fn points(p: RigParameters) -> anyhow::Result<Map<String, Value>> {
-    let branch = Branch::follow(lower_branch(p, Heading::Decreasing)?.up_to_amplitude(LARGEST_AMPLITUDE), |_| false)?;
-    ensure!(
-        branch.points.first().is_some_and(|first| first.orbit.stable()),
-        "the limit cycle near a1 = 1 is not stable: sides are not defined"
-    );
+    let branch = Branch::explore(lower_branch(p, Heading::Decreasing)?.up_to_amplitude(LARGEST_AMPLITUDE), |_| false);
     let fold = branch.special_of(Bifurcation::Fold).next();
     let fold_at =
         branch.special.iter().position(|point| point.kind == Bifurcation::Fold).unwrap_or(branch.special.len());
-    // The pair starts inside the unit circle, so its crossings alternate.
     let crossings: Vec<(usize, Value)> = branch
         .special
         .iter()
         .enumerate()
         .filter(|(_, point)| point.kind == Bifurcation::NeimarkSacker)
-        .enumerate()
-        .map(|(order, (index, point))| {
-            let mut fields = crossing(point, if order % 2 == 0 { "start" } else { "end" });
+        .map(|(index, point)| {
+            let mut fields = crossing(point);
             // Beyond the fold another multiplier is unstable as well, and no torus is born that could be seen.
             if index < fold_at {
                 fields["criticality"] = criticality(point)?;
@@ -171,6 +206,10 @@ fn points(p: RigParameters) -> anyhow::Result<Map<String, Value>> {
         fold.map_or(Value::Null, |f| json!({"xi1": f.parameters.xi1, "a1": f.orbit.amplitude()})),
     );
     fields.insert("analytic".to_owned(), analytic);
+    fields.insert("searched".to_owned(), searched(&branch));
+    if let BranchEnd::Lost { .. } = branch.end {
+        fields.insert("error".to_owned(), json!(end_of(&branch)));
+    }
     Ok(fields)
 }
 
@@ -187,7 +226,8 @@ fn criticality(point: &SpecialPoint) -> anyhow::Result<Value> {
     }
 }
 
-fn crossing(point: &SpecialPoint, side: &str) -> Value {
+fn crossing(point: &SpecialPoint) -> Value {
+    let side = if point.passage == Passage::Upwards { "start" } else { "end" };
     let frequency = point.rotation_angle().map(|angle| angle / (0.5 * point.orbit.period));
     json!({
         "xi1": point.parameters.xi1, "side": side, "torus_angular_frequency": frequency, "a1": point.orbit.amplitude(),

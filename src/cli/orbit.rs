@@ -1,16 +1,16 @@
 //! `orbit`: the limit cycle at given parameters, and its multipliers.
 
+use super::Verdict;
 use super::analysis::{RigInput, complex, complexes, exact_flow, lower_branch};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
-use super::{Verdict, motions};
 use crate::dynamics::{Flow, Sampling};
 use crate::exact::TwoMassFlow;
 use crate::model::RigParameters;
-use crate::orbit::{FloquetMultipliers, Heading, PeriodicOrbit, shoot};
+use crate::orbit::{FloquetMultipliers, Heading, Mode, PeriodicOrbit, limit_cycle_of, shoot};
 use crate::report::{Chart, Series, Style, Tint};
 use anyhow::{Context, bail};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use nalgebra::Complex;
 use serde_json::json;
 
@@ -24,6 +24,9 @@ pub struct OrbitArgs {
     /// Take the branch beyond the fold.
     #[arg(long)]
     upper: bool,
+    /// Take the cycle fed by this mode: in-phase (xi1 < 0) or out-of-phase (xi2 < 0). By default the in-phase one where xi1 < 0.
+    #[arg(long, value_enum, conflicts_with = "upper")]
+    mode: Option<FedBy>,
     #[command(flatten)]
     rig: RigInput,
     #[command(flatten)]
@@ -32,11 +35,47 @@ pub struct OrbitArgs {
     common: Common,
 }
 
+/// The mode whose negative damping feeds the cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FedBy {
+    InPhase,
+    OutOfPhase,
+}
+
+impl FedBy {
+    fn mode(self) -> Mode {
+        match self {
+            Self::InPhase => Mode::InPhase,
+            Self::OutOfPhase => Mode::OutOfPhase,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::InPhase => "in-phase",
+            Self::OutOfPhase => "out-of-phase",
+        }
+    }
+
+    /// The mode asked for, or the one that is excited; the in-phase one where both or neither are.
+    fn of(asked: Option<Self>, p: &RigParameters) -> Self {
+        asked.unwrap_or(if p.xi1 >= 0.0 && p.xi2 < 0.0 { Self::OutOfPhase } else { Self::InPhase })
+    }
+
+    /// What else there is to look for.
+    fn not_searched(self, p: &RigParameters) -> Option<String> {
+        let other = if self == Self::InPhase { Self::OutOfPhase } else { Self::InPhase };
+        let damping = if other == Self::InPhase { p.xi1 } else { p.xi2 };
+        (damping < 0.0).then(|| format!("the {0} mode is excited too: its cycle is --mode {0}", other.word()))
+    }
+}
+
 pub fn run(args: &OrbitArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("orbit")?;
     args.plot.check(args.common.force)?;
     let p = args.rig.parameters()?;
-    let orbit = if args.upper { upper(p) } else { motions::exact_limit_cycle(p).map_err(Into::into) };
+    let fed_by = FedBy::of(args.mode, &p);
+    let orbit = if args.upper { upper(p) } else { Ok(limit_cycle_of(fed_by.mode(), p, exact_flow)?) };
     let rig = || format!("limit cycle at xi1 = {}, xi2 = {}, kappa = {}, gamma = {}", p.xi1, p.xi2, p.kappa, p.gamma);
     let orbit = orbit.with_context(rig)?;
     let flow = exact_flow(p)?;
@@ -47,7 +86,9 @@ pub fn run(args: &OrbitArgs) -> anyhow::Result<Verdict> {
     if args.common.json {
         let all: Vec<Complex<f64>> =
             [Complex::new(1.0, 0.0)].into_iter().chain(floquet.others).chain([floquet.zero]).collect();
-        let parameters = json!({"xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "upper": args.upper});
+        let parameters = json!({
+            "xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "upper": args.upper, "mode": fed_by.word(),
+        });
         let document = Document::new("orbit", parameters)
             .with("section", json!({"x1": x1, "x2": x2, "v2": v2}))
             .with("period", json!(orbit.period))
@@ -59,7 +100,8 @@ pub fn run(args: &OrbitArgs) -> anyhow::Result<Verdict> {
             .with("floquet_multipliers", complexes(&all))
             .with("trivial_multiplier_error", json!(floquet.trivial_error))
             .with("stable", json!(floquet.stable()))
-            .with("residual", json!(orbit.residual));
+            .with("residual", json!(orbit.residual))
+            .with("not_searched", json!(fed_by.not_searched(&p)));
         print(&document.text()?)?;
         return Ok(Verdict::Done);
     }
@@ -77,6 +119,9 @@ pub fn run(args: &OrbitArgs) -> anyhow::Result<Verdict> {
         floquet.trivial_error,
         orbit.residual,
     ))?;
+    if let Some(other) = fed_by.not_searched(&p) {
+        print(&other)?;
+    }
     Ok(Verdict::Done)
 }
 
@@ -112,5 +157,11 @@ fn upper(p: RigParameters) -> anyhow::Result<PeriodicOrbit> {
         }
         before = point;
     }
-    bail!("no orbit beyond the fold at xi1 = {} up to amplitude {LARGEST_AMPLITUDE}: choose xi1 above the fold", p.xi1)
+    let reached = before.parameters.xi1;
+    let remedy = if reached <= p.xi1 {
+        format!("the branch has come back to xi1 = {reached} there, the orbit asked for is larger")
+    } else {
+        "choose xi1 above the fold".to_owned()
+    };
+    bail!("no orbit beyond the fold at xi1 = {} up to amplitude {LARGEST_AMPLITUDE}: {remedy}", p.xi1)
 }

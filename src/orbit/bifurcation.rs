@@ -26,6 +26,16 @@ pub enum Bifurcation {
     BranchPoint,
 }
 
+/// Which way a test function passes zero as a branch is followed. That of [`Bifurcation::NeimarkSacker`] has the sign of |multiplier| - 1
+/// of its pair: upwards, the pair leaves the unit circle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Passage {
+    Upwards,
+    Downwards,
+    /// The point was not met on a branch.
+    Unfollowed,
+}
+
 impl Bifurcation {
     /// Those that orbits with the given closure meet along a branch.
     #[must_use]

@@ -4,16 +4,17 @@ use super::bifurcation::Bifurcation;
 use super::curve::{Curve, Equations, StepControl};
 use super::error::OrbitError;
 use super::family::Family;
+use super::search::{Found, Node, Search};
 use super::shooting::PeriodicOrbit;
-use super::special::{Extended, SpecialPoint};
+use super::special::SpecialPoint;
 use crate::dynamics::{Closure, SectionMap};
 use crate::model::{RigParameter, RigParameters};
 use nalgebra::{DVector, Matrix3, Vector3};
 
 /// Largest step unless another is asked for, relative to the state.
 const LARGEST_STEP: f64 = 0.05;
-/// A special point may lie this far outside the bracket of its branch points, in lengths of their chord.
-const BRACKET_SLACK: f64 = 0.5;
+/// Largest component of an orbit at the reversal with which a branch is followed: half the amplitude bound of the flow.
+const UNBOUNDED: f64 = 500.0;
 
 /// Distance from a crossing at which the other branch is picked up, relative to the state.
 const DEPARTURE: f64 = 0.01;
@@ -119,47 +120,6 @@ where
         let (parameters, orbit) = (self.family.parameters(u), self.family.orbit(u)?);
         Ok(BranchPoint { parameters, orbit, parameter_rate: self.curve.tangent[3] })
     }
-
-    /// The bifurcations between two successive points.
-    ///
-    /// # Errors
-    /// If Newton's method fails on one of them or leads out of the bracket.
-    fn special_points(&self, from: &BranchPoint, to: &BranchPoint) -> Result<Vec<SpecialPoint>, OrbitError>
-    where
-        F: Clone,
-    {
-        let mut found = Vec::new();
-        for kind in Bifurcation::possible(self.family.closure) {
-            let [g0, g1] = [from, to].map(|point| kind.test_function(&point.orbit.jacobian));
-            if (g0 < 0.0) != (g1 < 0.0) {
-                found.extend(self.special_point(kind, [from, to], g0 / (g0 - g1))?);
-            }
-        }
-        Ok(found)
-    }
-
-    fn special_point(
-        &self,
-        kind: Bifurcation,
-        ends: [&BranchPoint; 2],
-        fraction: f64,
-    ) -> Result<Option<SpecialPoint>, OrbitError>
-    where
-        F: Clone,
-    {
-        let [from, to] = ends.map(|end| self.family.unknowns(&end.orbit.section, &end.parameters));
-        let extended = Extended { family: self.family.clone(), kind };
-        let u = extended.located(&from + (&to - &from) * fraction)?;
-        let scales = self.family.scales(&from);
-        let length = |v: DVector<f64>| v.component_div(&scales).norm();
-        let chord = length(&to - &from);
-        if length(&u - &from).max(length(&u - &to)) > (1.0 + BRACKET_SLACK) * chord {
-            let [from, to, found] = [from, to, u].map(|u| u.as_slice().to_vec());
-            return Err(OrbitError::OutsideBracket { kind, from, to, found });
-        }
-        let point = extended.point(&u)?;
-        Ok(kind.is_genuine(&point.orbit.jacobian).then_some(point))
-    }
 }
 
 impl<M, F> Iterator for PseudoArclength<F>
@@ -176,7 +136,9 @@ where
         let advanced = if self.started { self.curve.advance(&self.family) } else { Ok(()) };
         self.started = true;
         let point = advanced.and_then(|()| self.point());
-        self.over = point.as_ref().map_or(true, |point| point.orbit.amplitude() > self.largest_amplitude);
+        self.over = point.as_ref().map_or(true, |point| {
+            point.orbit.amplitude() > self.largest_amplitude || point.orbit.section.amax() > UNBOUNDED
+        });
         Some(point)
     }
 }
@@ -195,6 +157,22 @@ fn flipped_direction(jacobian: &Matrix3<f64>) -> Vector3<f64> {
 pub struct Branch {
     pub points: Vec<BranchPoint>,
     pub special: Vec<SpecialPoint>,
+    /// Two special points closer than this in the parameter may have been passed over.
+    pub resolution: f64,
+    pub end: BranchEnd,
+}
+
+/// Why a branch was not followed further.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BranchEnd {
+    /// Whoever asked had enough.
+    Enough,
+    /// The amplitude asked for was exceeded.
+    Amplitude,
+    /// The orbit grows beyond all bounds: the branch goes to infinity near its last point.
+    Unbounded,
+    /// The continuation failed.
+    Lost { reason: String },
 }
 
 impl Branch {
@@ -202,23 +180,75 @@ impl Branch {
     ///
     /// # Errors
     /// The first error of the continuation, or of the search for a special point.
-    pub fn follow<M, F>(mut branch: PseudoArclength<F>, enough: impl Fn(&Self) -> bool) -> Result<Self, OrbitError>
+    pub fn follow<M, F>(branch: PseudoArclength<F>, enough: impl Fn(&Self) -> bool) -> Result<Self, OrbitError>
     where
         M: SectionMap,
         F: Fn(RigParameters) -> Result<M, OrbitError> + Clone,
     {
-        let mut followed = Self { points: Vec::new(), special: Vec::new() };
+        let (followed, outcome) = Self::follow_until_lost(branch, enough);
+        outcome.map(|()| followed)
+    }
+
+    /// The same, but what was followed before the continuation failed is kept: see [`BranchEnd::Lost`].
+    pub fn explore<M, F>(branch: PseudoArclength<F>, enough: impl Fn(&Self) -> bool) -> Self
+    where
+        M: SectionMap,
+        F: Fn(RigParameters) -> Result<M, OrbitError> + Clone,
+    {
+        Self::follow_until_lost(branch, enough).0
+    }
+
+    fn follow_until_lost<M, F>(
+        mut branch: PseudoArclength<F>,
+        enough: impl Fn(&Self) -> bool,
+    ) -> (Self, Result<(), OrbitError>)
+    where
+        M: SectionMap,
+        F: Fn(RigParameters) -> Result<M, OrbitError> + Clone,
+    {
+        let mut followed = Self { points: Vec::new(), special: Vec::new(), resolution: 0.0, end: BranchEnd::Amplitude };
+        let mut last: Option<Node> = None;
         while let Some(point) = branch.next() {
-            let point = point?;
-            if let Some(last) = followed.points.last() {
-                followed.special.extend(branch.special_points(last, &point)?);
-            }
-            followed.points.push(point);
-            if enough(&followed) {
-                break;
+            match point.and_then(|point| followed.append(&branch, point, &mut last)) {
+                Ok(()) if enough(&followed) => {
+                    followed.end = BranchEnd::Enough;
+                    break;
+                }
+                Ok(()) => {}
+                Err(error) => {
+                    followed.end = BranchEnd::Lost { reason: error.to_string() };
+                    return (followed, Err(error));
+                }
             }
         }
-        Ok(followed)
+        let unbounded = |point: &BranchPoint| point.orbit.section.amax() > UNBOUNDED;
+        if followed.end == BranchEnd::Amplitude && followed.points.last().is_some_and(unbounded) {
+            followed.end = BranchEnd::Unbounded;
+        }
+        (followed, Ok(()))
+    }
+
+    fn append<M, F>(
+        &mut self,
+        branch: &PseudoArclength<F>,
+        point: BranchPoint,
+        last: &mut Option<Node>,
+    ) -> Result<(), OrbitError>
+    where
+        M: SectionMap,
+        F: Fn(RigParameters) -> Result<M, OrbitError> + Clone,
+    {
+        let search = Search::new(&branch.family);
+        let node = search.node(branch.curve.u.clone(), &branch.curve.tangent)?;
+        if let Some(last) = last {
+            let mut found = Found { points: Vec::new(), resolution: self.resolution };
+            search.between(last, &node, &mut found)?;
+            self.special.append(&mut found.points);
+            self.resolution = found.resolution;
+        }
+        *last = Some(node);
+        self.points.push(point);
+        Ok(())
     }
 
     /// The special points of one kind.

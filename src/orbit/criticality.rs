@@ -165,7 +165,13 @@ mod tests {
             residual: 0.0,
         };
         let parameters = RigParameters::default();
-        let point = SpecialPoint { kind: Bifurcation::NeimarkSacker, parameters, orbit, test_residual: 0.0 };
+        let point = SpecialPoint {
+            kind: Bifurcation::NeimarkSacker,
+            parameters,
+            orbit,
+            test_residual: 0.0,
+            passage: crate::orbit::Passage::Unfollowed,
+        };
         NormalForm::of(&map, &point).unwrap()
     }
 

@@ -89,6 +89,23 @@ impl Curve {
         Self::new(equations, found, &at_crossing.tangent, control)
     }
 
+    /// The point of the curve in the plane across the chord from `from` to `to`, at `part` of its length, with the tangent there.
+    pub(super) fn on_chord(
+        equations: &impl Equations,
+        from: &DVector<f64>,
+        to: &DVector<f64>,
+        part: f64,
+    ) -> Result<(DVector<f64>, DVector<f64>), OrbitError> {
+        let scales = equations.scales(from);
+        let chord = to - from;
+        let along = &chord / chord.component_div(&scales).norm();
+        let start = Self { u: from.clone(), tangent: along, step: 0.0, control: StepControl::up_to(0.0) };
+        let (u, jacobian) = start.corrected(equations, from + &chord * part, &scales)?;
+        let scales = equations.scales(&u);
+        let tangent = tangent(&jacobian, &chord, &scales).ok_or_else(|| OrbitError::singular(u.as_slice(), 0.0))?;
+        Ok((u, tangent))
+    }
+
     /// The same with another longest step.
     pub(super) fn limited_to(self, largest_step: f64) -> Self {
         let step = self.step.min(largest_step);

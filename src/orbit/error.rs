@@ -1,4 +1,5 @@
 use super::bifurcation::Bifurcation;
+use super::limit_cycle::Mode;
 use crate::model::ParameterError;
 use thiserror::Error;
 
@@ -9,8 +10,14 @@ type Source = Box<dyn std::error::Error + Send + Sync>;
 pub enum OrbitError {
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    #[error("no limit cycle to start from at xi1 = {xi1}, kappa = {kappa}: it needs xi1 < 0 and kappa > 0")]
-    NoGuess { xi1: f64, kappa: f64 },
+    #[error(
+        "no {mode:?} limit cycle to start from at xi1 = {xi1}, xi2 = {xi2}, kappa = {kappa}: it needs kappa > 0 and negative damping of its mode, xi1 for InPhase, xi2 for OutOfPhase"
+    )]
+    NoGuess { mode: Mode, xi1: f64, xi2: f64, kappa: f64 },
+    #[error(
+        "there is no limit cycle on the lower branch at {name} = {wanted}: the branch goes to infinity near {name} = {reached}. Choose a weaker {name}"
+    )]
+    Unbounded { name: &'static str, reached: f64, wanted: f64 },
     #[error("the section map failed at (x1, x2, v2) = {at:?}: {source}. Start closer to the orbit")]
     Map { at: [f64; 3], source: Source },
     #[error("the flow failed along the orbit of period {period}: {source}")]
@@ -24,9 +31,9 @@ pub enum OrbitError {
     #[error("the {size} multipliers of an orbit could not be computed: the QR iteration did not converge")]
     NoMultipliers { size: usize },
     #[error(
-        "there is no limit cycle on the lower branch at xi1 = {wanted}: the branch turns at a fold just below xi1 = {reached}. Choose xi1 above it"
+        "there is no limit cycle on the lower branch at {name} = {wanted}: the branch turns at a fold just beyond {name} = {reached}. Choose a weaker {name}"
     )]
-    BeyondFold { reached: f64, wanted: f64 },
+    BeyondFold { name: &'static str, reached: f64, wanted: f64 },
     #[error(
         "the step would turn the tangent by {turn:.3} rad (allowed {allowed_turn:.3}) and lean by {lean:.3} rad (allowed {allowed_lean:.3}): it may lead to another branch; take shorter steps"
     )]
@@ -35,10 +42,6 @@ pub enum OrbitError {
         "the curve could not be followed beyond {at:?} even with step {step:e}: {source}. The orbit may change its phases there, or the parameters leave their range"
     )]
     StepTooSmall { at: Vec<f64>, step: f64, source: Box<OrbitError> },
-    #[error(
-        "the {kind:?} at {from:?} to {to:?} was found at {found:?}, outside: follow the branch with a smaller largest step"
-    )]
-    OutsideBracket { kind: Bifurcation, from: Vec<f64>, to: Vec<f64>, found: Vec<f64> },
     #[error(
         "a {kind:?} point has no pair of complex multipliers on the unit circle: criticality is one of Neimark-Sacker points"
     )]

@@ -7,7 +7,7 @@
 //! The residual is exact; the gradient of g, which holds second derivatives of the map, is taken by central differences of
 //! exact first derivatives. That affects the rate of convergence alone, not the point found.
 
-use super::bifurcation::Bifurcation;
+use super::bifurcation::{Bifurcation, Passage};
 use super::curve::Equations;
 use super::error::OrbitError;
 use super::family::Family;
@@ -22,7 +22,7 @@ const MAX_STEPS: usize = 25;
 /// Newton steps this short, relative to the scales, end the search; the next would be shorter by about 1e5.
 const LAST_STEP: f64 = 1e-10;
 /// Largest value of a test function at a point of a curve: roundings of a determinant of entries of order 1 to 10.
-const TEST_TOLERANCE: f64 = 1e-11;
+pub(super) const TEST_TOLERANCE: f64 = 1e-11;
 
 /// Where a branch of periodic orbits bifurcates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +32,7 @@ pub struct SpecialPoint {
     pub orbit: PeriodicOrbit,
     /// Value of the test function there.
     pub test_residual: f64,
+    pub passage: Passage,
 }
 
 impl SpecialPoint {
@@ -84,7 +85,8 @@ where
     pub(super) fn point(&self, u: &DVector<f64>) -> Result<SpecialPoint, OrbitError> {
         let orbit = self.family.orbit(u)?;
         let parameters = self.family.parameters(u);
-        Ok(SpecialPoint { kind: self.kind, parameters, orbit, test_residual: self.kind.test_function(&orbit.jacobian) })
+        let test_residual = self.kind.test_function(&orbit.jacobian);
+        Ok(SpecialPoint { kind: self.kind, parameters, orbit, test_residual, passage: Passage::Unfollowed })
     }
 
     fn test_gradient(&self, u: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {

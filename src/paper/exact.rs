@@ -63,7 +63,9 @@ pub(super) fn beside_the_cycle(parameters: RigParameters) -> Result<(TwoMassFlow
             state.positions[1] += PERTURBATION;
             state
         }
-        Err(OrbitError::NoGuess { .. } | OrbitError::BeyondFold { .. }) => State::two_mass(ELSEWHERE),
+        Err(OrbitError::NoGuess { .. } | OrbitError::BeyondFold { .. } | OrbitError::Unbounded { .. }) => {
+            State::two_mass(ELSEWHERE)
+        }
         Err(error) => return Err(error),
     };
     Ok((flow(parameters)?, start))

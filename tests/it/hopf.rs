@@ -3,10 +3,15 @@
 //! Woiwode, Vakakis & Krack, Nonlinear Dynamics 106 (2021) 1659-1673; the numbers to nine digits were computed outside this project.
 
 use super::orbits::{exact_at, from_the_sticking_limit, nominal};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use stickslip::dynamics::{HalfPeriodMap, ReversalPoint, State};
 use stickslip::exact::TwoMassFlow;
 use stickslip::model::{RigParameters, TwoMassRig};
-use stickslip::orbit::{Bifurcation, Branch, Criticality, FloquetMultipliers, NormalForm, SpecialPoint, limit_cycle};
+use stickslip::orbit::{
+    Bifurcation, Branch, BranchEnd, Criticality, FloquetMultipliers, Mode, NormalForm, OrbitError, Passage,
+    SpecialPoint, limit_cycle, limit_cycle_of,
+};
 
 /// Secondary Hopf points between the sticking limit and the first fold, or amplitude 20 where there is no fold before.
 fn hopf_points(p: RigParameters) -> Vec<SpecialPoint> {
@@ -47,6 +52,114 @@ fn stability_is_regained_for_some_parameters() {
         let points = hopf_points(p);
         assert_eq!(points.len(), 2, "start and end at {p:?}");
     }
+}
+
+/// Computed outside this project in 40 digits: Taylor series, shooting, secants on the modulus of the pair. It crosses the circle at so low
+/// an angle that 1e-10 in a modulus would be 1e-8 in xi1.
+#[test]
+fn pairs_of_points_close_together_are_found() {
+    for (p, expected) in [
+        (RigParameters { gamma: 0.7995, ..nominal() }, Some([-0.06470079205335, -0.06727256185683])),
+        (RigParameters { gamma: 0.79941, ..nominal() }, Some([-0.06435207594376, -0.06764638664195])),
+        // The multipliers reach 1 + 6e-6 and 1 + 8e-6.
+        (RigParameters { kappa: 0.0708722, ..nominal() }, None),
+        (RigParameters { kappa: 0.2161527, ..nominal() }, None),
+    ] {
+        let points = hopf_points(p);
+        let [start, end] = &points[..] else { panic!("{} points at {p:?}", points.len()) };
+        assert_eq!([start.passage, end.passage], [Passage::Upwards, Passage::Downwards], "{p:?}");
+        for (point, expected) in points.iter().zip(expected.iter().flatten()) {
+            // Roundings of a modulus, 1e-15, over that angle.
+            assert!((point.parameters.xi1 - expected).abs() < 1e-11, "{p:?}: {}", point.parameters.xi1);
+        }
+        let modulus = |xi1| {
+            let flow_at = RigParameters { xi1, ..p };
+            limit_cycle(flow_at, exact_at).unwrap().section_multipliers()[0].norm()
+        };
+        let middle = 0.5 * (start.parameters.xi1 + end.parameters.xi1);
+        let width = start.parameters.xi1 - end.parameters.xi1;
+        assert!(modulus(middle) > 1.0 && modulus(middle + width) < 1.0 && modulus(middle - width) < 1.0, "{p:?}");
+    }
+}
+
+/// Around the value of gamma at which a pair merges: a pair is found where a scan of the multipliers a hundred times as dense sees one outside
+/// the circle. `STICKSLIP_SETS` sets the number of parameter sets.
+#[test]
+fn merging_pairs_are_found_or_excluded_as_a_dense_scan_says() {
+    let count = std::env::var("STICKSLIP_SETS").map_or(16, |text| text.parse().unwrap());
+    let mut random = ChaCha8Rng::seed_from_u64(200);
+    let (mut with, mut without) = (0, 0);
+    for _ in 0..count {
+        // Equation (32) puts the merging at pi kappa^2/(gamma xi2) = 3; the exact one lies within a third of that.
+        let (kappa, about): (f64, f64) = (random.random_range(0.05..0.2), random.random_range(0.4..0.85));
+        let p = RigParameters { kappa, xi2: std::f64::consts::PI * kappa * kappa / (3.5 * about), ..nominal() };
+        let pair = |gamma: f64| !hopf_points(RigParameters { gamma, ..p }).is_empty();
+        let (mut low, mut high) = (0.75 * about, (1.3 * about).min(0.99));
+        if !pair(low) || pair(high) {
+            continue;
+        }
+        for _ in 0..14 {
+            let middle = 0.5 * (low + high);
+            if pair(middle) { low = middle } else { high = middle }
+        }
+        let gamma = low + (high - low) * random.random_range(-20.0..20.0);
+        let p = RigParameters { gamma, ..p };
+        let found = hopf_points(p);
+        let dense = from_the_sticking_limit(p).with_largest_step(5e-4).up_to_amplitude(20.0);
+        let dense = dense.map(Result::unwrap).take_while(|point| point.parameter_rate < 0.0);
+        let largest = dense.map(|point| {
+            let [a, b, _] = point.orbit.section_multipliers();
+            if a.im != 0.0 { a.norm() } else { b.norm() * f64::from(u8::from(b.im != 0.0)) }
+        });
+        let moduli: Vec<f64> = largest.collect();
+        let outside = moduli.iter().any(|modulus| *modulus > 1.0);
+        assert_eq!(!found.is_empty(), outside, "{p:?}");
+        // Starts and ends alternate; the last one is a start where the pair is still outside at the fold.
+        let expected = [Passage::Upwards, Passage::Downwards].into_iter().cycle();
+        assert!(found.iter().map(|point| point.passage).eq(expected.take(found.len())), "{p:?}");
+        assert_eq!(found.len() % 2 == 1, moduli.last().is_some_and(|modulus| *modulus > 1.0), "{p:?}");
+        assert!(found.windows(2).all(|pair| pair[0].parameters.xi1 > pair[1].parameters.xi1), "{p:?}");
+        if outside { with += 1 } else { without += 1 }
+    }
+    println!("{count} sets, {with} with a pair, {without} without");
+    // Half of the sets have no merging in the range of gamma looked at.
+    assert!(with > 0 && without > 0 && with + without > count / 4, "{with} {without}");
+}
+
+/// Where the branch runs to infinity or damping is strong the search ends with what it found. Fold and amplitude were computed outside
+/// this project by shooting.
+#[test]
+fn weak_coupling_and_strong_damping_are_followed() {
+    let p = RigParameters { kappa: 0.01, ..nominal() };
+    let branch = Branch::follow(from_the_sticking_limit(p).up_to_amplitude(50.0), |_| false).unwrap();
+    assert_eq!(branch.end, BranchEnd::Unbounded);
+    assert_eq!(branch.special_of(Bifurcation::NeimarkSacker).count(), 0);
+    let fold = branch.special_of(Bifurcation::Fold).next().unwrap();
+    assert!((fold.parameters.xi1 + 0.012751689256).abs() < 1e-11, "{}", fold.parameters.xi1);
+    // At a fold the amplitude is off by the square root of what xi1 is off by, 1e-12.
+    assert!((fold.orbit.amplitude() - 1.15709247).abs() < 1e-6, "{}", fold.orbit.amplitude());
+    let damped = limit_cycle(RigParameters { xi2: 20.0, ..nominal() }, exact_at).unwrap();
+    assert!((damped.amplitude() - 1.32404823).abs() < 1e-8, "{}", damped.amplitude());
+    let p = RigParameters { kappa: 0.0524, xi2: 0.0966, gamma: 0.862, xi1: -0.125 };
+    let error = limit_cycle(p, exact_at).unwrap_err();
+    let OrbitError::Unbounded { reached, .. } = error else { panic!("{error}") };
+    assert!((reached + 0.124).abs() < 5e-4, "{reached}");
+}
+
+/// Computed outside this project by shooting.
+#[test]
+fn both_modes_have_a_cycle_where_both_are_excited() {
+    let p = RigParameters { xi1: -0.001, xi2: -0.01, ..nominal() };
+    let cycle = |mode| limit_cycle_of(mode, p, exact_at).unwrap();
+    let (in_phase, out_of_phase) = (cycle(Mode::InPhase), cycle(Mode::OutOfPhase));
+    assert!((in_phase.amplitude() - 1.0031585).abs() < 1e-7 && in_phase.stable());
+    assert!((out_of_phase.amplitude() - 1.0383632).abs() < 1e-7 && out_of_phase.stable());
+    assert!((out_of_phase.angular_frequency() - 1.0938073).abs() < 1e-7);
+    // x2 is its largest displacement there, not that at the reversal of mass 1.
+    assert!((out_of_phase.section[1] + 1.07).abs() < 1e-2, "{}", out_of_phase.section);
+    let driven = RigParameters { xi1: 0.01, xi2: -0.01, ..nominal() };
+    assert!(limit_cycle_of(Mode::OutOfPhase, driven, exact_at).is_ok());
+    assert!(matches!(limit_cycle(driven, exact_at), Err(OrbitError::NoGuess { .. })));
 }
 
 #[test]

@@ -37,7 +37,7 @@ use crate::conformance::{
 use crate::engine::{Precision, Scheme};
 use crate::exact::TwoMassFlow;
 use crate::model::{RigParameter, RigParameters, TwoMassRig};
-use crate::orbit::{Bifurcation, Branch, Heading, OrbitError, PseudoArclength, limit_cycle};
+use crate::orbit::{Bifurcation, Branch, Heading, Mode, OrbitError, PseudoArclength, limit_cycle};
 
 /// Secondary Hopf point of the engine.
 #[derive(Debug, Clone, Copy)]
@@ -141,7 +141,12 @@ fn exact_hopf() -> Result<f64, OrbitError> {
     let branch = PseudoArclength::new(at, start, &orbit, RigParameter::Xi1, Heading::Decreasing)?;
     let found = |branch: &Branch| branch.special_of(Bifurcation::NeimarkSacker).next().map(|p| p.parameters.xi1);
     let branch = Branch::follow(branch.up_to_amplitude(2.0), |so_far| found(so_far).is_some())?;
-    found(&branch).ok_or(OrbitError::NoGuess { xi1: start.xi1, kappa: start.kappa })
+    found(&branch).ok_or(OrbitError::NoGuess {
+        mode: Mode::InPhase,
+        xi1: start.xi1,
+        xi2: start.xi2,
+        kappa: start.kappa,
+    })
 }
 
 /// One configuration.
