@@ -9,14 +9,19 @@ use crate::model::{
 use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::{Case, Scene};
 use clap::Args;
+use nalgebra::Complex;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Linear modes of a chain or ring, its contacts stuck: damping by nodal diameter, localisation, flutter margin.
+/// Linear modes of a chain or ring, its contacts stuck: every eigenvalue, stability, damping by nodal diameter, localisation.
+///
+/// All 2N eigenvalues are looked at, those that do not oscillate too; they are modes of angular frequency 0, and `overdamped` counts them. The
+/// one with the largest real part decides: stable, flutter (a growing pair), divergence (a growing real one), or neutral within 1e-12 of the largest
+/// eigenvalue, which is rounding. The flutter margin is minus twice that real part: the least damping.
 ///
 /// Of a tuned ring the modes are waves. Otherwise the nodal diameter is that of the wave with the largest share in the mode, and null for open
-/// chains; where the opposite wave has the same share, the mode stands and its nodal diameter has no sign. Damping is minus twice the real part of the eigenvalue; the flutter margin is the least of all: negative where the disk flutters,
-/// neutral within 1e-12 of the largest frequency, which is rounding.
+/// chains; where the opposite wave has the same share, the mode stands and its nodal diameter has no sign. Damping is minus twice the real part of
+/// the eigenvalue.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip modes scenes/disk_forward_wave.toml --plot s-curve.svg")]
 pub struct ModesArgs {
@@ -47,15 +52,16 @@ pub fn run(args: &ModesArgs) -> anyhow::Result<Verdict> {
         Some(disk) => rows_of_disk(&disk.disk, !args.slipping)?,
         None => rows_of_chain(TwoMassRig::new(case.parameters)?.chain(), !args.slipping, None)?,
     };
-    let margin = rows.iter().map(|row| row.mode.damping).fold(f64::INFINITY, f64::min);
-    let stability = Stability::of(&rows.iter().map(|row| row.mode).collect::<Vec<_>>());
+    let spectrum = Spectrum::of(rows.iter().map(|row| row.mode).collect());
     args.plot.draw(|| chart(&case, &rows))?;
     if args.common.json {
         let document = Document::new("modes", parameters(&case, args))
             .with("modes", json!(rows.iter().map(json_of).collect::<Vec<_>>()))
-            .with("flutter_margin", json!(margin))
-            .with("flutter", json!(stability == Stability::Flutter))
-            .with("stability", json!(stability));
+            .with("eigenvalues", json!(spectrum.eigenvalues.iter().map(complex).collect::<Vec<_>>()))
+            .with("flutter_margin", json!(spectrum.margin()))
+            .with("flutter", json!(spectrum.stability == Stability::Flutter))
+            .with("stability", json!(spectrum.stability))
+            .with("overdamped", json!(spectrum.overdamped));
         print(&document.text()?)?;
         return Ok(Verdict::Done);
     }
@@ -69,13 +75,44 @@ pub fn run(args: &ModesArgs) -> anyhow::Result<Verdict> {
             row.participation
         ))?;
     }
-    let word = match stability {
-        Stability::Stable => "stable",
-        Stability::Neutral => "neutral",
-        Stability::Flutter => "flutter",
-    };
-    print(&format!("flutter margin {margin:+.9}: {word}"))?;
+    print(&format!(
+        "largest real part of {} eigenvalues {:+.9}; {} of them do not oscillate",
+        spectrum.eigenvalues.len(),
+        spectrum.largest(),
+        spectrum.overdamped
+    ))?;
+    print(&format!("flutter margin {:+.9}: {}", spectrum.margin(), spectrum.stability.word()))?;
     Ok(Verdict::Done)
+}
+
+/// All eigenvalues by their real parts, and what they say.
+struct Spectrum {
+    eigenvalues: Vec<Complex<f64>>,
+    overdamped: usize,
+    stability: Stability,
+}
+
+impl Spectrum {
+    fn of(modes: Vec<LinearMode>) -> Self {
+        let mut eigenvalues: Vec<Complex<f64>> = modes.iter().flat_map(LinearMode::eigenvalues).collect();
+        eigenvalues.sort_by(|a, b| a.re.total_cmp(&b.re).then(a.im.total_cmp(&b.im)));
+        let overdamped = modes.iter().filter(|mode| !mode.oscillates()).count();
+        Self { eigenvalues, overdamped, stability: Stability::of(&modes) }
+    }
+
+    /// A system has at least one oscillator, so that there is a last one.
+    fn largest(&self) -> f64 {
+        self.eigenvalues.last().map_or(0.0, |s| s.re)
+    }
+
+    fn margin(&self) -> f64 {
+        // Plus zero: of a neutral system not -0.
+        -2.0 * self.largest() + 0.0
+    }
+}
+
+fn complex(s: &Complex<f64>) -> Value {
+    json!({"re": s.re, "im": s.im})
 }
 
 fn direction(row: &Row) -> String {

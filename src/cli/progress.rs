@@ -58,24 +58,37 @@ impl Progress {
     }
 }
 
-/// Progress of a long computation on several threads: one line now and then on standard error.
+/// Progress of a long computation on several threads: one line now and then on standard error, with an estimate of the time that is left.
 pub struct Heartbeat {
     quiet: bool,
     what: &'static str,
     unit: &'static str,
+    start: Instant,
     last: Mutex<Instant>,
 }
 
 impl Heartbeat {
     pub fn new(quiet: bool, what: &'static str, unit: &'static str) -> Self {
-        Self { quiet, what, unit, last: Mutex::new(Instant::now()) }
+        let start = Instant::now();
+        Self { quiet, what, unit, start, last: Mutex::new(start) }
     }
 
     pub fn at(&self, done: usize, all: usize) {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         if !self.quiet && last.elapsed() >= HEARTBEAT {
-            tell(&format!("{}: {done} of {all} {}", self.what, self.unit));
+            let left = self.start.elapsed().as_secs_f64() * (all - done) as f64 / done.max(1) as f64;
+            tell(&format!("{}: {done} of {all} {}, about {} left", self.what, self.unit, duration(left)));
             *last = Instant::now();
         }
+    }
+}
+
+/// Seconds as one reads them: `40 s`, `7 min`, `3.5 h`, `12 days`.
+pub fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 100.0 => format!("{s:.0} s"),
+        s if s < 6000.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.0} days", s / 86_400.0),
     }
 }

@@ -37,9 +37,9 @@ impl<'a, 's> Balance<'a, 's> {
             if residual < RESIDUAL {
                 return Ok(w);
             }
-            let step = 1e-6;
+            let [step, turn] = [1e-6 * amplitude, 1e-6 * w];
             let by_a = (self.fundamental(a + step, w)? - here) / step;
-            let by_w = (self.fundamental(a, w + step)? - here) / step;
+            let by_w = (self.fundamental(a, w + turn)? - here) / turn;
             let determinant = by_a.re * by_w.im - by_a.im * by_w.re;
             let da = (here.im * by_w.re - here.re * by_w.im) / determinant;
             let dw = (here.re * by_a.im - here.im * by_a.re) / determinant;

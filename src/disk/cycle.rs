@@ -1,5 +1,5 @@
-//! Limit cycles of disks that need not be tuned, closed by shooting: on settled motions, and from the travelling waves of the tuned disk by growing
-//! the mistuning step by step, which finds unstable cycles as well.
+//! Limit cycles of disks that need not be tuned, closed by shooting: on settled motions ([`super::settled`]), and from the travelling waves of the
+//! tuned disk by growing the mistuning step by step, which finds unstable cycles as well.
 //!
 //! Contacts that never slip on the cycle keep whatever force they were left with: `f_j - (k_j/R_j) b_j^T x` is constant, so cycles come in families and
 //! each such contact adds a multiplier 1. Those, and the one along the motion, say nothing about stability and are left out.
@@ -7,18 +7,19 @@
 use super::error::DiskError;
 use super::one_sector::TravellingWave;
 use super::ring::blade_amplitudes;
-use crate::dynamics::{EventKind, Sampling, State};
+use super::stability::OrbitStability;
+use crate::dynamics::{EventKind, State};
 use crate::exact::{ExactError, SparseFlow};
 use crate::model::{BladedDisk, Mistuning, NodalDiameter};
 use crate::orbit::{FlowOrbit, SpatialClosure, shoot_flow};
 use nalgebra::DVector;
-use std::f64::consts::TAU;
 
-/// Time over which the period of a settled motion is measured, and between two samples of it.
-const MEASURED: f64 = 40.0 * TAU;
-const SAMPLE: f64 = TAU / 64.0;
 /// Harmonics of the wave from which Newton's method starts.
 const FOLLOWED_HARMONICS: usize = 64;
+/// Steps in which mistuning may grow.
+const MOST_STEPS: usize = 10_000;
+/// A cycle whose amplitudes change by more than this part in one step is another one, on which Newton's method has fallen.
+const JUMP: f64 = 0.5;
 
 /// A limit cycle of a disk.
 #[derive(Debug, Clone)]
@@ -28,20 +29,31 @@ pub struct DiskCycle {
     pub amplitudes: Vec<f64>,
     /// Contacts that never slip.
     pub stuck_contacts: usize,
-    /// Largest modulus of the multipliers over a period, neutral ones left out.
+    /// Largest modulus of the multipliers over a period, those left out of which the module head speaks.
     pub leading_multiplier: f64,
 }
 
 impl DiskCycle {
     #[must_use]
+    pub fn stability(&self) -> OrbitStability {
+        OrbitStability::of(self.leading_multiplier)
+    }
+
+    #[must_use]
     pub fn stable(&self) -> bool {
-        self.leading_multiplier < 1.0
+        self.stability() == OrbitStability::Stable
     }
 
     /// [`participation`] of the amplitudes: how far the motion is spread over the blades.
     #[must_use]
     pub fn participation(&self) -> f64 {
         participation(&self.amplitudes)
+    }
+
+    /// The largest amplitude of a blade.
+    #[must_use]
+    pub fn amplitude(&self) -> f64 {
+        self.amplitudes.iter().fold(0.0, |largest, a| a.max(largest))
     }
 }
 
@@ -53,7 +65,7 @@ pub fn participation(amplitudes: &[f64]) -> f64 {
     if spread > 0.0 { power(2).powi(2) / spread } else { 1.0 }
 }
 
-/// The cycle near a state and a period.
+/// The cycle near a state and a period. It may be rest, which closes after any time: [`DiskCycle::amplitude`] and [`DiskCycle::stuck_contacts`] tell.
 ///
 /// # Errors
 /// [`DiskError::Orbit`] if Newton's method finds none, [`DiskError::Flow`].
@@ -74,24 +86,18 @@ pub fn cycle_near(flow: &SparseFlow, blades: usize, guess: &State, period: f64) 
     })
 }
 
-/// The cycle on which the motion from `start` has settled after the time `settle`.
-///
-/// # Errors
-/// [`DiskError::NoOscillation`] if the motion comes to rest, [`DiskError::Orbit`] if it is no cycle that Newton's method finds (it may be
-/// quasi-periodic, or still settling), [`DiskError::Flow`].
-pub fn settled_cycle(flow: &SparseFlow, blades: usize, start: &State, settle: f64) -> Result<DiskCycle, DiskError> {
-    let settled = flow.advance(start, settle)?.state;
-    let period = mean_period(flow, blades, &settled)?;
-    cycle_near(flow, blades, &settled, period)
-}
-
 /// The cycle that the travelling wave of the tuned disk becomes as the mistuning grows to its own size in `steps` equal steps.
 ///
 /// # Errors
-/// As [`TravellingWave::of`] for the wave, and [`DiskError::Lost`] where the cycle cannot be followed: with stronger mistuning it may end in a fold.
+/// As [`TravellingWave::of`] for the wave, [`DiskError::TooMany`] for more than 10 000 steps, [`DiskError::Lost`] where the cycle cannot be followed: with
+/// stronger mistuning it may end in a fold, and [`DiskError::Jumped`] where Newton's method leaves it for another orbit or for rest.
 pub fn mistuned_wave(disk: &BladedDisk, wave: NodalDiameter, steps: usize) -> Result<DiskCycle, DiskError> {
+    if steps > MOST_STEPS {
+        return Err(DiskError::TooMany { what: "steps", found: steps as f64, allowed: MOST_STEPS as f64 });
+    }
     let estimate = TravellingWave::of(disk, wave, FOLLOWED_HARMONICS)?;
     let (mut state, mut period) = (estimate.state(), estimate.period());
+    let mut amplitudes = vec![estimate.amplitude; disk.sectors];
     let deviations = disk.deviations()?;
     let steps = steps.max(1);
     for step in 0..=steps {
@@ -103,31 +109,16 @@ pub fn mistuned_wave(disk: &BladedDisk, wave: NodalDiameter, steps: usize) -> Re
             DiskError::Orbit(source) => DiskError::Lost { wave: wave.signed(), part, source },
             other => other,
         })?;
+        let change = cycle.amplitudes.iter().zip(&amplitudes).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let largest = amplitudes.iter().fold(0.0_f64, |largest, a| largest.max(*a));
+        if change > JUMP * largest || cycle.stuck_contacts == flow.chain().sliders() {
+            return Err(DiskError::Jumped { wave: wave.signed(), part, from: largest, to: cycle.amplitude() });
+        }
         if step == steps {
             return Ok(cycle);
         }
         state = State::from_components(cycle.orbit.state.as_slice(), flow.chain()).map_err(ExactError::from)?;
-        period = cycle.orbit.period;
+        (period, amplitudes) = (cycle.orbit.period, cycle.amplitudes);
     }
     Err(DiskError::NoOscillation { time: 0.0 })
-}
-
-/// Mean time between upward zeros of the velocity of the blade that moves most.
-fn mean_period(flow: &SparseFlow, blades: usize, from: &State) -> Result<f64, DiskError> {
-    let mut velocities: Vec<Vec<f64>> = Vec::new();
-    flow.observe(from, Sampling { interval: SAMPLE, t_end: MEASURED }, |_, state, _| {
-        velocities.push(state.velocities[..blades].to_vec());
-    })?;
-    let size = |j: usize| velocities.iter().map(|v| v[j].abs()).fold(0.0, f64::max);
-    let most = (0..blades).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0);
-    let zeros: Vec<f64> = velocities
-        .windows(2)
-        .enumerate()
-        .filter(|(_, pair)| pair[0][most] < 0.0 && pair[1][most] >= 0.0)
-        .map(|(n, pair)| SAMPLE * (n as f64 + pair[0][most] / (pair[0][most] - pair[1][most])))
-        .collect();
-    match zeros[..] {
-        [first, .., last] => Ok((last - first) / (zeros.len() - 1) as f64),
-        _ => Err(DiskError::NoOscillation { time: MEASURED }),
-    }
 }

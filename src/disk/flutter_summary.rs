@@ -8,7 +8,7 @@
 //!
 //! which has a width at p = 0 and 1 as well. It is of the drawing of samples alone, mistuning and starts together.
 
-use super::monte_carlo::{Fate, SampleRow};
+use super::monte_carlo::{Fate, Sample, SampleRow};
 use crate::model::Stability;
 use serde::{Deserialize, Serialize};
 
@@ -26,11 +26,23 @@ pub struct FateCounts {
     pub diverged: usize,
 }
 
-/// What the samples say together.
+/// How many samples the eigenvalues of the stuck disk put in each class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct LinearCounts {
+    pub stable: usize,
+    pub neutral: usize,
+    pub flutter: usize,
+    pub divergence: usize,
+}
+
+/// What the samples say together. All shares are of those that were followed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     pub fates: FateCounts,
-    /// Samples that flutter linearly over all samples, its standard error (which says nothing at 0 and 1), and the interval for it.
+    pub linear: LinearCounts,
+    /// Samples that could not be followed.
+    pub failed: usize,
+    /// Samples that flutter linearly, those that diverge statically not counted, over all samples, its standard error (which says nothing at 0 and 1), and the interval for it.
     pub probability_of_linear_flutter: f64,
     pub standard_error: f64,
     pub linear_flutter_interval: [f64; 2],
@@ -46,10 +58,13 @@ pub struct Summary {
 impl Summary {
     /// Of at least one sample; all zero for none, with intervals from 0 to 1.
     #[must_use]
-    pub fn of(rows: &[SampleRow]) -> Self {
+    pub fn of(samples: &[Sample]) -> Self {
+        let rows: Vec<SampleRow> = samples.iter().filter_map(Sample::row).copied().collect();
+        let rows = &rows[..];
         let count = |fate, settled| rows.iter().filter(|row| row.fate == fate && row.settled == settled).count();
         let all = rows.len().max(1) as f64;
-        let linear = rows.iter().filter(|row| row.linear == Stability::Flutter).count();
+        let said = |stability| rows.iter().filter(|row| row.linear == stability).count();
+        let linear = said(Stability::Flutter);
         let held = count(Fate::Flutter, true);
         let p = linear as f64 / all;
         let fluttering = rows.iter().filter(|row| row.fate == Fate::Flutter && row.settled);
@@ -64,6 +79,13 @@ impl Summary {
                 unsettled: count(Fate::Flutter, false),
                 diverged: count(Fate::Diverged, true),
             },
+            linear: LinearCounts {
+                stable: said(Stability::Stable),
+                neutral: said(Stability::Neutral),
+                flutter: linear,
+                divergence: said(Stability::Divergence),
+            },
+            failed: samples.len() - rows.len(),
             probability_of_linear_flutter: p,
             standard_error: (p * (1.0 - p) / all).sqrt(),
             linear_flutter_interval: wilson(linear, rows.len()),

@@ -14,10 +14,13 @@
 //! grow with it, so that a slow beat, which is no settling, fits in. What has not settled by then counts apart and enters no quantile.
 //! A motion that is linearly not unstable and whose contacts all stick in the last tenth does not grow: it needs no settling.
 //!
+//! A draw that is no disk, or whose motion fails, is a row with its reason among the others.
+//!
 //! Every sample depends on its seed alone, so the result is the same on any number of threads and after any interruption.
 
 use super::cycle::participation;
 use super::error::DiskError;
+use super::settled::LONGEST_MOTION;
 use crate::dynamics::{Outcome, Sampling, State};
 use crate::exact::SparseFlow;
 use crate::model::{BladedDisk, ContactState, Mistuning, ParameterError, Range, Stability};
@@ -41,6 +44,8 @@ const FEWEST_PERIODS: f64 = 20.0;
 const WORTH_A_STAGE: f64 = 1.0 / TRANSIENT;
 /// A motion that has not settled is made this many times as long.
 const LENGTHENING: f64 = 4.0;
+/// Samples of one Monte Carlo.
+const MOST_SAMPLES: usize = 1_000_000;
 /// Keeps the seeds of displacements apart from those of stiffnesses.
 const START_STREAM: u64 = 0x5354_4152_5400_0000;
 
@@ -74,9 +79,9 @@ pub enum Fate {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SampleRow {
     pub seed: u64,
-    /// Least damping of all modes with stuck contacts.
+    /// Least damping of all modes with stuck contacts, those that do not oscillate among them.
     pub least_damping: f64,
-    /// What it says: negative beyond rounding is linear flutter.
+    /// What it says: negative beyond rounding is flutter or static divergence.
     pub linear: Stability,
     pub fate: Fate,
     /// Periods followed.
@@ -93,20 +98,39 @@ pub struct SampleRow {
     pub participation: f64,
 }
 
+/// One draw: followed, or why not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Sample {
+    Followed(SampleRow),
+    Failed { seed: u64, reason: String },
+}
+
+impl Sample {
+    /// The row of a sample that was followed.
+    #[must_use]
+    pub fn row(&self) -> Option<&SampleRow> {
+        match self {
+            Self::Followed(row) => Some(row),
+            Self::Failed { .. } => None,
+        }
+    }
+}
+
 impl MonteCarlo {
     /// All samples in order of seed. With `record`, finished blocks are kept there and not computed again.
     ///
     /// # Errors
-    /// [`DiskError::Parameter`] for numbers out of range and a mistuning that is not random, [`DiskError::Seeds`], [`DiskError::Sample`] of a sample that fails,
-    /// and [`DiskError::Store`] and [`DiskError::Record`] of the record.
+    /// [`DiskError::Parameter`] and [`DiskError::TooMany`] for numbers out of range, [`DiskError::NotRandom`], [`DiskError::Seeds`], and [`DiskError::Store`] and
+    /// [`DiskError::Record`] of the record. A sample that fails is a row.
     pub fn run(
         &self,
         record: Option<&OutputDir>,
         progress: impl Fn(usize, usize) + Sync,
-    ) -> Result<Vec<SampleRow>, DiskError> {
+    ) -> Result<Vec<Sample>, DiskError> {
         self.validate()?;
         let done = AtomicUsize::new(0);
-        let blocks: Vec<Vec<SampleRow>> = (0..self.samples.div_ceil(BLOCK))
+        let blocks: Vec<Vec<Sample>> = (0..self.samples.div_ceil(BLOCK))
             .into_par_iter()
             .map(|block| {
                 let rows = self.block(block, record)?;
@@ -115,6 +139,22 @@ impl MonteCarlo {
             })
             .collect::<Result<_, DiskError>>()?;
         Ok(blocks.concat())
+    }
+
+    /// Seconds of computing on one thread, if no motion goes on and if all go on to the longest, by the pace of the first disk over a few periods; none
+    /// where that disk cannot be followed.
+    ///
+    /// # Errors
+    /// As [`Self::run`] for the plan.
+    pub fn estimate(&self) -> Result<Option<[f64; 2]>, DiskError> {
+        self.validate()?;
+        let trial = Self { periods: FEWEST_PERIODS, longest: FEWEST_PERIODS, ..self.clone() };
+        let before = std::time::Instant::now();
+        if trial.sample(self.first_seed).is_err() {
+            return Ok(None);
+        }
+        let pace = before.elapsed().as_secs_f64() / FEWEST_PERIODS * self.samples as f64;
+        Ok(Some([self.periods, self.longest].map(|periods| pace * periods)))
     }
 
     fn validate(&self) -> Result<(), DiskError> {
@@ -129,9 +169,20 @@ impl MonteCarlo {
             let allowed = "finite and at least the number of periods";
             return Err(out_of_range("longest", self.longest, allowed));
         }
-        if !self.disk.mistuning.as_ref().is_some_and(Mistuning::is_random) {
-            let allowed = "`normal` or `uniform`: give [disk.mistuning] one of these kinds";
-            return Err(out_of_range("mistuning", 0.0, allowed));
+        match &self.disk.mistuning {
+            None => return Err(DiskError::NotRandom { found: "no mistuning" }),
+            Some(fixed) if !fixed.is_random() => return Err(DiskError::NotRandom { found: "a given pattern" }),
+            Some(_) => {}
+        }
+        let most = LONGEST_MOTION / TAU;
+        for (what, found, allowed) in [
+            ("samples", self.samples as f64, MOST_SAMPLES as f64),
+            ("periods", self.periods, most),
+            ("periods at the longest", self.longest, most),
+        ] {
+            if found > allowed {
+                return Err(DiskError::TooMany { what, found, allowed });
+            }
         }
         if self.first_seed.checked_add(self.samples as u64 - 1).is_none() {
             return Err(DiskError::Seeds { first: self.first_seed, samples: self.samples });
@@ -142,7 +193,7 @@ impl MonteCarlo {
         Ok(())
     }
 
-    fn block(&self, block: usize, record: Option<&OutputDir>) -> Result<Vec<SampleRow>, DiskError> {
+    fn block(&self, block: usize, record: Option<&OutputDir>) -> Result<Vec<Sample>, DiskError> {
         let name = format!("samples/block-{block:06}.json");
         if let Some(directory) = record
             && directory.trusted(&name, "").is_some()
@@ -152,8 +203,11 @@ impl MonteCarlo {
                 .map_err(|error| DiskError::Record { name: name.clone(), reason: error.to_string() });
         }
         let seeds = (block * BLOCK..self.samples.min((block + 1) * BLOCK)).map(|i| self.first_seed + i as u64);
-        let sample = |seed| self.sample(seed).map_err(|source| DiskError::Sample { seed, source: Box::new(source) });
-        let rows: Vec<SampleRow> = seeds.map(sample).collect::<Result<_, _>>()?;
+        let sample = |seed| match self.sample(seed) {
+            Ok(row) => Sample::Followed(row),
+            Err(error) => Sample::Failed { seed, reason: error.to_string() },
+        };
+        let rows: Vec<Sample> = seeds.map(sample).collect();
         if let Some(directory) = record {
             directory.write(&name, "", |file| {
                 serde_json::to_writer(&mut *file, &rows)?;
@@ -272,7 +326,7 @@ impl Tenths {
         let Fixed { seed, least_damping, linear, .. } = *fixed;
         let (fate, amplitude) = match outcome {
             Outcome::Diverged { bound, .. } => (Fate::Diverged, bound),
-            Outcome::Completed if linear != Stability::Flutter && !self.slips => (Fate::Stable, self.largest(1)),
+            Outcome::Completed if !linear.is_unstable() && !self.slips => (Fate::Stable, self.largest(1)),
             Outcome::Completed => (Fate::Flutter, self.largest(1)),
         };
         let amplitudes: Vec<f64> = self.amplitudes(1).collect();

@@ -19,8 +19,11 @@
 //! flow. Left out are the harmonics beyond the last; `f_h = O(1/h^2)` and `H_h = O(1/h^2)`, so the error of the amplitude falls at least with the
 //! third power of their number. With one harmonic this is the describing function.
 //!
+//! Where to look for them over the amplitude is said in [`super::amplitudes`].
+//!
 //! Assumptions: a ring with one group of contacts on all sectors; contacts that reverse twice and slip twice in a period; odd symmetry.
 
+use super::amplitudes::{Candidate, LARGEST_AMPLITUDE, Searched, search};
 use super::balance::Balance;
 use super::error::DiskError;
 use super::odd_series::{C, largest, value};
@@ -53,16 +56,34 @@ pub struct TravellingWave {
 }
 
 impl TravellingWave {
-    /// The wave of least amplitude beyond the slip limit with `count` odd harmonics, for the disk without its mistuning.
+    /// All limit cycles that the describing function of a wave has, by family and amplitude, and what was searched; for the disk without its
+    /// mistuning.
     ///
     /// # Errors
-    /// [`DiskError::NotOneGroup`] unless the disk is a ring with one group of contacts on all sectors; [`DiskError::NoWave`] where friction
-    /// finds no balance up to 100 slip elongations (waves the air damps among them); [`DiskError::NoConvergence`].
+    /// [`DiskError::NotOneGroup`] unless the disk is a ring with one group of contacts on all sectors; [`DiskError::Modes`].
+    pub fn candidates(disk: &BladedDisk, wave: NodalDiameter) -> Result<(Vec<Candidate>, Searched), DiskError> {
+        search(&Sector::new(disk, wave)?)
+    }
+
+    /// The first of the candidates, with `count` odd harmonics: the wave of least amplitude of the lowest family that has one.
+    ///
+    /// # Errors
+    /// As [`Self::candidates`] and [`Self::near`]; [`DiskError::NoWave`] where there is none up to 1000 slip elongations.
     pub fn of(disk: &BladedDisk, wave: NodalDiameter, count: usize) -> Result<Self, DiskError> {
+        let (found, _) = Self::candidates(disk, wave)?;
+        let none = DiskError::NoWave { wave: wave.signed(), elongations: LARGEST_AMPLITUDE };
+        Self::near(disk, found.first().ok_or(none)?, count)
+    }
+
+    /// The wave near a candidate, with `count` odd harmonics.
+    ///
+    /// # Errors
+    /// [`DiskError::NotOneGroup`] as above; [`DiskError::NoConvergence`], [`DiskError::NoSlip`]; [`DiskError::ManyReversals`].
+    pub fn near(disk: &BladedDisk, candidate: &Candidate, count: usize) -> Result<Self, DiskError> {
+        let wave = candidate.wave;
         let sector = Sector::new(disk, wave)?;
-        let (guess, w) = sector.describing_function()?;
-        let mut balance = Balance::new(&sector, guess, count);
-        let w = balance.solve(guess, w)?;
+        let mut balance = Balance::new(&sector, candidate.elongation, count);
+        let w = balance.solve(candidate.elongation, candidate.angular_frequency)?;
         if balance.falls() {
             Self::from_balance(balance, w)
         } else {

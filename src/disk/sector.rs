@@ -2,13 +2,9 @@
 
 use super::error::DiskError;
 use super::odd_series::C;
-use crate::model::{BladedDisk, ContactPlace, NodalDiameter, TunedMode};
+use crate::model::{BladedDisk, ContactPlace, NodalDiameter, sector_eigenvalues};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
-
-/// Largest amplitude looked at, in units of the slip elongation.
-const LARGEST_AMPLITUDE: f64 = 100.0;
-const MOST_STEPS: usize = 60;
 
 /// The linear side of one sector.
 pub(super) struct Sector<'a> {
@@ -20,6 +16,8 @@ pub(super) struct Sector<'a> {
     slip_force: f64,
     pub(super) slip_elongation: f64,
     pub(super) place: ContactPlace,
+    /// K(sigma), D(sigma) and `R conj(c) c^T` of the first harmonic.
+    first: [DMatrix<C>; 3],
 }
 
 impl<'a> Sector<'a> {
@@ -30,16 +28,23 @@ impl<'a> Sector<'a> {
         }
         let chain = disk.tuned().chain()?;
         let element = chain.jenkins()[0];
-        Ok(Self {
+        let (stiffness, damping) = (chain.stiffness().clone(), chain.total_damping());
+        let size = disk.oscillators_per_sector();
+        let first = [disk.wave_block(&stiffness, wave), disk.wave_block(&damping, wave), DMatrix::zeros(size, size)];
+        let mut sector = Self {
             disk,
             wave,
-            mass: (0..disk.oscillators_per_sector()).map(|a| chain.mass()[a * disk.sectors]).collect(),
-            stiffness: chain.stiffness().clone(),
-            damping: chain.total_damping(),
+            mass: (0..size).map(|a| chain.mass()[a * disk.sectors]).collect(),
+            stiffness,
+            damping,
             slip_force: element.slip_force,
             slip_elongation: 1.0 / element.normalised_stiffness(),
             place: contacts.place,
-        })
+            first,
+        };
+        let c = sector.direction(1);
+        sector.first[2] = c.conjugate() * c.transpose() * C::from(sector.slip_force);
+        Ok(sector)
     }
 
     /// `c_h`: elongation of a contact per motion of the oscillators of its sector.
@@ -71,64 +76,11 @@ impl<'a> Sector<'a> {
         self.response(harmonic, w).map_or(C::from(f64::INFINITY), |x| -self.direction(harmonic).dot(&x))
     }
 
-    /// `1 + H_1 N(a)` made regular, `1/H_1(w) + N(a)` with N the force per elongation of a harmonic motion of amplitude a.
-    fn balance(&self, amplitude: f64, w: f64) -> C {
-        let e = self.slip_elongation;
-        let tau = if amplitude > e { (1.0 - 2.0 * e / amplitude).acos() } else { PI };
-        let in_phase = (2.0 * tau - (2.0 * tau).sin()) / (2.0 * PI * e);
-        C::new(in_phase, tau.sin().powi(2) / (PI * e)) + 1.0 / self.compliance(1, w)
-    }
-
-    /// Amplitude and angular frequency by the describing function: the frequency from the real part for every amplitude, and the first
-    /// amplitude at which friction balances the air.
-    pub(super) fn describing_function(&self) -> Result<(f64, f64), DiskError> {
-        let e = self.slip_elongation;
-        let lowest = |modes: Vec<TunedMode>| {
-            modes.into_iter().find(|mode| mode.wave == self.wave).map(|mode| mode.mode.angular_frequency)
-        };
-        let no_wave = || DiskError::NoWave { wave: self.wave.signed(), amplitude: LARGEST_AMPLITUDE * e };
-        let mut w = lowest(self.disk.tuned_modes(true)?).ok_or_else(no_wave)?;
-        let mut at = |a: f64| {
-            w = self.frequency(a, w)?;
-            Some((self.balance(a, w).im, w))
-        };
-        let (mut low, mut high) = (e * (1.0 + 1e-9), e);
-        let start = at(low).ok_or_else(no_wave)?.0;
-        // Below the slip limit only the air acts: a wave it damps has no cycle that grows out of rest.
-        if start >= 0.0 {
-            return Err(no_wave());
-        }
-        while high < LARGEST_AMPLITUDE * e {
-            high = if high > e { high * 1.05 } else { 1.05 * e };
-            if at(high).ok_or_else(no_wave)?.0 > 0.0 {
-                break;
-            }
-            low = high;
-        }
-        if high >= LARGEST_AMPLITUDE * e {
-            return Err(no_wave());
-        }
-        for _ in 0..80 {
-            let middle = 0.5 * (low + high);
-            if at(middle).ok_or_else(no_wave)?.0 < 0.0 { low = middle } else { high = middle }
-        }
-        let (_, w) = at(high).ok_or_else(no_wave)?;
-        Ok((high, w))
-    }
-
-    /// Angular frequency at which the real part of the balance vanishes, by the secant method from a neighbour.
-    fn frequency(&self, amplitude: f64, near: f64) -> Option<f64> {
-        let real = |w: f64| self.balance(amplitude, w).re;
-        let (mut a, mut b) = (near, near * (1.0 + 1e-4));
-        let (mut fa, mut fb) = (real(a), real(b));
-        for _ in 0..MOST_STEPS {
-            if (fb - fa).abs() == 0.0 || (b - a).abs() <= 1e-15 * b {
-                break;
-            }
-            let next = b - fb * (b - a) / (fb - fa);
-            (a, fa) = (b, fb);
-            (b, fb) = (next, real(next));
-        }
-        (b.is_finite() && b > 0.0 && fb.abs() < 1e-9 * (1.0 + 1.0 / self.slip_elongation)).then_some(b)
+    /// Eigenvalues of the sector with its contact swinging at the sticking angle `tau`; see [`super::amplitudes`].
+    pub(super) fn eigenvalues(&self, tau: f64) -> Result<Vec<C>, DiskError> {
+        let in_phase = (2.0 * tau - (2.0 * tau).sin()) / (2.0 * PI);
+        let force = C::new(in_phase, tau.sin().powi(2) / PI) / self.slip_elongation;
+        let [stiffness, damping, contact] = &self.first;
+        Ok(sector_eigenvalues(&self.mass, damping, &(stiffness + contact * force))?)
     }
 }

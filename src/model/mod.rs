@@ -19,6 +19,7 @@ mod sparse;
 
 pub use chain::OscillatorChain;
 pub use chain_builder::ChainBuilder;
+pub(crate) use disk::sector_eigenvalues;
 pub use disk::{
     Aerodynamics, BladedDisk, ContactPlace, DiskSegments, FrictionContacts, Harmonic, InfluenceCoefficient,
     InfluenceCoefficients, Mistuning, ModeShape, NodalDiameter, Spectrum, Topology, TravelDirection, TunedMode,

@@ -38,31 +38,76 @@ pub struct LinearMode {
     pub damping: f64,
 }
 
+impl LinearMode {
+    /// The eigenvalues the mode stands for: a conjugate pair, or one that is real.
+    pub fn eigenvalues(&self) -> impl Iterator<Item = Complex<f64>> {
+        let upper = Complex::new(-0.5 * self.damping, self.angular_frequency);
+        let lower = self.oscillates().then(|| upper.conj());
+        std::iter::once(upper).chain(lower)
+    }
+
+    /// Whether it oscillates at all, however strongly it is damped; otherwise its eigenvalue is real.
+    #[must_use]
+    pub fn oscillates(&self) -> bool {
+        self.angular_frequency > 0.0
+    }
+
+    fn size(&self) -> f64 {
+        self.angular_frequency.hypot(0.5 * self.damping)
+    }
+}
+
 /// Part of the largest eigenvalue below which a damping is rounding. The iteration is backward stable: eigenvalues are off by some roundings
 /// 2e-16 of the norm of the matrix, times a factor that grows slowly with its size; 1e-12 holds for hundreds of oscillators, and a growth that slow
 /// is beyond any model. Coinciding zeros of rigid-body modes are off by more.
-const NEUTRAL: f64 = 1e-12;
+pub(super) const NEUTRAL: f64 = 1e-12;
 
-/// What the least damping of all modes says.
+/// What the eigenvalue with the largest real part says. All 2N count, those that do not oscillate as well: a disk can diverge without swinging.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
     Stable,
-    /// Zero to rounding, `1e-12` of the largest frequency.
+    /// Real part zero to rounding, `1e-12` of the largest eigenvalue.
     Neutral,
+    /// A pair grows.
     Flutter,
+    /// A real eigenvalue grows: static divergence, or a node so strongly fed that it no longer swings.
+    Divergence,
 }
 
 impl Stability {
-    /// Of all modes of a chain.
+    /// Of all modes of a chain, those that do not oscillate among them; neutral without any.
     #[must_use]
     pub fn of(modes: &[LinearMode]) -> Self {
-        let largest = modes.iter().map(|mode| mode.angular_frequency.hypot(0.5 * mode.damping)).fold(0.0, f64::max);
-        let least = modes.iter().map(|mode| mode.damping).fold(f64::INFINITY, f64::min);
-        match least {
-            d if d > NEUTRAL * largest => Self::Stable,
-            d if d < -NEUTRAL * largest => Self::Flutter,
+        let largest = modes.iter().map(LinearMode::size).fold(0.0, f64::max);
+        let leading = modes.iter().min_by(|a, b| a.damping.total_cmp(&b.damping));
+        match leading {
+            Some(mode) if 0.5 * mode.damping > NEUTRAL * largest => Self::Stable,
+            Some(mode) if 0.5 * mode.damping < -NEUTRAL * largest => {
+                if mode.angular_frequency > NEUTRAL * largest {
+                    Self::Flutter
+                } else {
+                    Self::Divergence
+                }
+            }
             _ => Self::Neutral,
+        }
+    }
+
+    /// Whether small motions grow.
+    #[must_use]
+    pub fn is_unstable(self) -> bool {
+        matches!(self, Self::Flutter | Self::Divergence)
+    }
+
+    /// The word for it, as in JSON documents.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Neutral => "neutral",
+            Self::Flutter => "flutter",
+            Self::Divergence => "divergence",
         }
     }
 }
@@ -81,7 +126,7 @@ impl OscillatorChain {
         })
     }
 
-    /// Linear modes in order of angular frequency; a complex pair is one mode, a real eigenvalue is one of its own.
+    /// Linear modes in order of angular frequency; a complex pair is one mode, a real eigenvalue is one of its own: 2N eigenvalues in all.
     ///
     /// # Errors
     /// [`ModesError::WrongPattern`] if `sticking` has not one entry per element, [`ModesError::NoConvergence`] if the
@@ -107,6 +152,7 @@ impl OscillatorChain {
 
 #[cfg(test)]
 mod tests {
+    use super::{LinearMode, Stability};
     use crate::model::{RigParameters, TwoMassRig};
 
     #[test]
@@ -128,5 +174,31 @@ mod tests {
         let modes = TwoMassRig::new(p).unwrap().chain().linear_modes(&[true]).unwrap();
         assert!((modes[0].damping - p.xi1).abs() < 1e-14);
         assert!((modes[1].damping - p.xi2).abs() < 1e-14);
+    }
+
+    fn modes_at(xi1: f64) -> Vec<LinearMode> {
+        let p = RigParameters { xi1, ..Default::default() };
+        TwoMassRig::new(p).unwrap().chain().linear_modes(&[true]).unwrap()
+    }
+
+    #[test]
+    fn a_node_that_does_not_swing_is_seen() {
+        // In phase s^2 + xi1 s + 1 = 0: at xi1 = -3 the roots (3 +- sqrt 5)/2, at 3 their negatives; the other mode is damped with xi2.
+        let root = |sign: f64| 0.5 * (3.0 + sign * 5.0_f64.sqrt());
+        let modes = modes_at(-3.0);
+        let mut found: Vec<f64> = modes.iter().flat_map(LinearMode::eigenvalues).map(|s| s.re).collect();
+        found.sort_by(f64::total_cmp);
+        let expected = [-0.0055, -0.0055, root(-1.0), root(1.0)];
+        // Rounding of the QR iteration on numbers of order 3.
+        assert!(found.len() == 4 && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-13), "{found:?}");
+        assert_eq!(modes.iter().filter(|mode| !mode.oscillates()).count(), 2);
+        assert_eq!(Stability::of(&modes), Stability::Divergence);
+        assert_eq!(Stability::of(&modes_at(3.0)), Stability::Stable);
+        // Negative controls: a pair that grows, and none.
+        assert_eq!(
+            (Stability::of(&modes_at(-0.1)), Stability::of(&modes_at(0.1))),
+            (Stability::Flutter, Stability::Stable)
+        );
+        assert_eq!(Stability::of(&modes_at(0.0)), Stability::Neutral);
     }
 }

@@ -103,7 +103,7 @@ fn the_wave_followed_as_mistuning_grows_is_the_cycle_on_which_motions_settle() {
     assert!(followed.stable(), "{}", followed.leading_multiplier);
     let flow = SparseFlow::new(&disk.chain().unwrap());
     let start = TravellingWave::of(&disk, wave(2), 16).unwrap().state();
-    let settled = settled_cycle(&flow, N, &start, 3000.0).unwrap();
+    let settled = settled_cycle(&disk, &flow, &start, 3000.0, |_, _| {}).unwrap().cycle;
     for (a, b) in followed.amplitudes.iter().zip(&settled.amplitudes) {
         // Two orbits closed to 2e-12, of a cycle whose perturbations halve in some periods.
         assert!((a - b).abs() < 1e-9, "{a} {b}");

@@ -1,7 +1,7 @@
 //! Random mistuning: the same rows on any number of threads and after any interruption; fates against the linear analysis.
 
 use std::fs;
-use stickslip::disk::{Fate, MonteCarlo, SampleRow, Summary};
+use stickslip::disk::{Fate, MonteCarlo, Sample, SampleRow, Summary};
 use stickslip::model::{
     Aerodynamics, BladedDisk, ContactPlace, FrictionContacts, InfluenceCoefficient, Mistuning, Stability,
 };
@@ -24,7 +24,12 @@ fn plan(samples: usize) -> MonteCarlo {
 
 fn on_threads(plan: &MonteCarlo, threads: usize, record: Option<&OutputDir>) -> Vec<SampleRow> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| plan.run(record, |_, _| {})).unwrap()
+    let samples = pool.install(|| plan.run(record, |_, _| {})).unwrap();
+    samples.iter().map(|sample| *sample.row().expect("every sample can be followed")).collect()
+}
+
+fn summary_of(rows: &[SampleRow]) -> Summary {
+    Summary::of(&rows.iter().map(|row| Sample::Followed(*row)).collect::<Vec<_>>())
 }
 
 #[test]
@@ -53,7 +58,7 @@ fn rows_do_not_depend_on_threads_and_an_interrupted_record_is_completed() {
 #[test]
 fn fates_agree_with_the_linear_margin_and_seeds_differ() {
     let rows = on_threads(&plan(40), 2, None);
-    let summary = Summary::of(&rows);
+    let summary = summary_of(&rows);
     assert!(summary.fates.stable > 3 && summary.fates.flutter > 3 && summary.fates.diverged == 0, "{summary:?}");
     for row in &rows {
         // Linear flutter is flutter; a stable disk may also be caught slipping still.
@@ -76,7 +81,7 @@ fn motions_are_followed_until_they_settle_and_the_rest_counts_apart() {
     let (short, long) = (plan(40), MonteCarlo { longest: 3840.0, ..plan(40) });
     let given_up = MonteCarlo { longest: 60.0, ..plan(40) };
     let [first, short, long] = [&given_up, &short, &long].map(|plan| on_threads(plan, 2, None));
-    let unsettled = |rows: &[SampleRow]| Summary::of(rows).fates.unsettled;
+    let unsettled = |rows: &[SampleRow]| summary_of(rows).fates.unsettled;
     // After 60 periods some still grow or beat; longer motions leave fewer of them.
     assert!(
         unsettled(&first) >= 3 && unsettled(&long) < unsettled(&first),
@@ -94,7 +99,7 @@ fn motions_are_followed_until_they_settle_and_the_rest_counts_apart() {
     let mut settled: Vec<f64> =
         long.iter().filter(|row| row.fate == Fate::Flutter && row.settled).map(|row| row.amplitude).collect();
     settled.sort_by(f64::total_cmp);
-    let summary = Summary::of(&long);
+    let summary = summary_of(&long);
     assert_eq!(summary.fates.flutter, settled.len());
     assert_eq!(summary.amplitude_quantiles[2], settled[((settled.len() - 1) as f64 * 0.5).round() as usize]);
     assert_eq!(summary.lengths.iter().map(|(_, count)| count).sum::<usize>(), 40);
@@ -143,7 +148,7 @@ fn a_motion_that_still_grows_and_never_slips_has_not_settled() {
         assert!(row.fate == Fate::Flutter && !row.slips && !row.settled && row.periods == 960.0, "{row:?}");
         assert!((row.least_damping + 2e-5).abs() < 1e-9, "{row:?}");
     }
-    let summary = Summary::of(&rows);
+    let summary = summary_of(&rows);
     assert_eq!((summary.fates.flutter, summary.fates.unsettled), (0, 6));
     assert!(summary.amplitude_quantiles.is_empty());
     // Where it counts as settled, contacts slip.
@@ -187,9 +192,12 @@ fn a_draw_that_is_no_disk_is_named_by_its_seed() {
     let fails = |seed: &u64| mistuning.with_seed(*seed).deviations(3).unwrap().iter().any(|d| *d < -0.5);
     let seed = (77..).find(fails).unwrap();
     let disk = BladedDisk { mistuning: Some(mistuning.clone()), ..slow().disk };
-    let error = MonteCarlo { disk, samples: 1, first_seed: seed, ..slow() }.run(None, |_, _| {}).unwrap_err();
-    let message = error.to_string();
-    assert!(message.contains(&format!("seed {seed}:")) && message.contains("stiffness of blade"), "{message}");
+    // The samples beside it are followed.
+    let samples = MonteCarlo { disk, samples: 6, first_seed: seed, ..slow() }.run(None, |_, _| {}).unwrap();
+    assert_eq!(samples.len(), 6);
+    let Sample::Failed { seed: named, reason } = &samples[0] else { panic!("{:?}", samples[0]) };
+    assert!(*named == seed && reason.contains("stiffness of blade"), "{reason}");
+    assert_eq!(samples.iter().filter(|sample| sample.row().is_none()).count(), (seed..seed + 6).filter(fails).count());
 }
 
 #[test]
@@ -209,14 +217,14 @@ fn intervals_are_those_of_wilson() {
                 .collect()
         };
     for (fluttering, expected) in [(10, [0.7225, 1.0]), (0, [0.0, 0.2775]), (5, [0.2366, 0.7634])] {
-        let found = Summary::of(&rows(fluttering)).linear_flutter_interval;
+        let found = summary_of(&rows(fluttering)).linear_flutter_interval;
         // Rounding of the published digits.
         assert!((0..2).all(|i| (found[i] - expected[i]).abs() < 6e-5), "{fluttering}: {found:?}");
     }
     let held: Vec<SampleRow> = rows(10).into_iter().map(|row| SampleRow { settled: true, ..row }).collect();
-    let summary = Summary::of(&held);
+    let summary = summary_of(&held);
     assert!((summary.held_flutter_interval[0] - 0.7225).abs() < 6e-5 && summary.probability_of_held_flutter == 1.0);
-    assert_eq!(Summary::of(&rows(10)).probability_of_held_flutter, 0.0);
+    assert_eq!(summary_of(&rows(10)).probability_of_held_flutter, 0.0);
 }
 
 #[test]

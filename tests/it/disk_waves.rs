@@ -198,7 +198,7 @@ fn a_mistuned_disk_settles_on_a_stable_cycle_with_unequal_blades() {
     let disk = BladedDisk { mistuning, ..ring(0.01, 0.06) };
     let flow = SparseFlow::new(&disk.chain().unwrap());
     let start = scattered(flow.chain(), 1.0);
-    let cycle = settled_cycle(&flow, N, &start, 3000.0).unwrap();
+    let cycle = settled_cycle(&disk, &flow, &start, 3000.0, |_, _| {}).unwrap().cycle;
     assert!(cycle.stable() && cycle.leading_multiplier > 0.5, "{}", cycle.leading_multiplier);
     let (low, high) = cycle.amplitudes.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), a| (l.min(*a), h.max(*a)));
     // Tuned blades are equal to 1e-11.

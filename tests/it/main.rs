@@ -33,6 +33,8 @@ mod disk_cycles;
 #[cfg(feature = "engine")]
 mod disk_engine;
 mod disk_exact;
+#[cfg(feature = "cli")]
+mod disk_faults;
 #[cfg(feature = "render")]
 mod disk_film;
 mod disk_flutter;

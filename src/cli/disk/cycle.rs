@@ -3,11 +3,12 @@
 use super::super::Verdict;
 use super::super::common::{Common, Document, print};
 use super::super::plot::PlotArgs;
+use super::super::progress::Heartbeat;
 use super::motion::start;
-use crate::disk::{DiskCycle, mistuned_wave, settled_cycle, strongest, wave_amplitudes};
+use crate::disk::{DiskCycle, OrbitStability, mistuned_wave, settled_cycle, strongest, wave_amplitudes};
 use crate::dynamics::State;
 use crate::exact::SparseFlow;
-use crate::model::{NodalDiameter, Topology};
+use crate::model::{NodalDiameter, Range, Topology};
 use crate::report::{Chart, Series, Style, Tint};
 use anyhow::ensure;
 use clap::Args;
@@ -16,8 +17,12 @@ use std::path::PathBuf;
 
 /// Limit cycle of a mistuned disk: amplitude of every blade, frequency, Floquet multipliers, localisation.
 ///
-/// The motion of the scene is followed until it has settled, then closed by Newton's method (shooting on the exact flow). With --wave the travelling wave
-/// of the tuned disk is followed instead while the mistuning grows: unstable cycles are found too.
+/// The motion of the scene is followed until it has settled, then closed by Newton's method (shooting on the exact flow). The cycle is given only if
+/// the motion is on it; how far off it is, is told. Motions that diverge, come to rest, keep several waves as on a torus, or have not settled
+/// are refused by name. Within 1e-9 of 1 the leading multiplier is neutral.
+///
+/// With --wave the travelling wave of the tuned disk (the one of least amplitude that `disk waves` lists) is followed instead while the mistuning
+/// grows: unstable cycles are found too.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  stickslip disk cycle scenes/disk_mistuned.toml --settle 20000 --plot amplitudes.svg\n  \
@@ -25,13 +30,13 @@ use std::path::PathBuf;
 )]
 pub struct CycleArgs {
     scene: PathBuf,
-    /// Time after which the motion is taken for settled; the length of the scene's motion without it.
+    /// Time for which the motion is followed before it is closed, at most 1e8; the length of the scene's motion without it.
     #[arg(long, conflicts_with = "wave", allow_hyphen_values = true)]
     settle: Option<f64>,
     /// Signed nodal diameter of the wave to follow.
     #[arg(long, allow_hyphen_values = true)]
     wave: Option<i64>,
-    /// Steps in which the mistuning grows.
+    /// Steps in which the mistuning grows, at most 10000.
     #[arg(long, requires = "wave", default_value_t = 16)]
     steps: usize,
     #[command(flatten)]
@@ -46,17 +51,21 @@ pub fn run(args: &CycleArgs) -> anyhow::Result<Verdict> {
     let (whole, case) = super::load_case(&args.scene, None)?;
     let disk = &case.disk;
     let chain = disk.chain()?;
-    let settle = args.settle.unwrap_or(whole.duration);
-    let (cycle, how) = match args.wave {
+    let settle = Range::NonNegative.check("--settle", args.settle.unwrap_or(whole.duration))?;
+    let (cycle, distance, how) = match args.wave {
         Some(wave) => {
             ensure!(disk.topology == Topology::Ring, "--wave follows a wave of a ring: leave it out for a chain");
             let number = NodalDiameter::checked("--wave", wave, disk.sectors)?;
-            (mistuned_wave(disk, number, args.steps)?, json!({"wave": number.signed(), "steps": args.steps}))
+            let how = json!({"wave": number.signed(), "steps": args.steps});
+            (mistuned_wave(disk, number, args.steps)?, None, how)
         }
         None => {
-            let flow = SparseFlow::new(&chain);
-            let cycle = settled_cycle(&flow, disk.sectors, &start(&case, &chain)?, settle)?;
-            (cycle, json!({"start": case.start, "settle": settle}))
+            let flow = SparseFlow::new(&chain).with_amplitude_bound(whole.amplitude_bound)?;
+            let from = start(&case, &chain, whole.amplitude_bound)?;
+            let heartbeat = Heartbeat::new(args.common.quiet, "settling", "parts");
+            let found = settled_cycle(disk, &flow, &from, settle, |done, all| heartbeat.at(done, all))?;
+            let how = json!({"start": case.start, "settle": settle, "amplitude_bound": whole.amplitude_bound});
+            (found.cycle, Some(found.distances[1]), how)
         }
     };
     args.plot.draw(|| Ok(chart(&cycle)))?;
@@ -70,6 +79,8 @@ pub fn run(args: &CycleArgs) -> anyhow::Result<Verdict> {
             .with("angular_frequency", json!(cycle.orbit.angular_frequency()))
             .with("period", json!(cycle.orbit.period))
             .with("stable", json!(cycle.stable()))
+            .with("stability", json!(cycle.stability()))
+            .with("distance", json!(distance))
             .with("leading_multiplier", json!(cycle.leading_multiplier))
             .with("floquet_multipliers", json!(multipliers))
             .with("stuck_contacts", json!(cycle.stuck_contacts))
@@ -85,11 +96,14 @@ pub fn run(args: &CycleArgs) -> anyhow::Result<Verdict> {
         cycle.orbit.residual
     ))?;
     print(&format!("amplitudes of the blades {low:.10} to {high:.10}, participation {:.4}", cycle.participation()))?;
-    let word = if cycle.stable() { "stable" } else { "unstable" };
-    print(&format!(
-        "{word}, leading multiplier {:.8}; {} contacts never slip",
-        cycle.leading_multiplier, cycle.stuck_contacts
-    ))?;
+    let multiplier = match cycle.stability() {
+        OrbitStability::Neutral => "leading multiplier 1 to rounding".to_owned(),
+        _ => format!("leading multiplier {:.8}", cycle.leading_multiplier),
+    };
+    print(&format!("{}, {multiplier}; {} contacts never slip", cycle.stability().word(), cycle.stuck_contacts))?;
+    if let Some(distance) = distance {
+        print(&format!("the motion followed is within {distance:.1e} of it"))?;
+    }
     Ok(Verdict::Done)
 }
 

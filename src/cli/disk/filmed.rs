@@ -10,8 +10,8 @@ use crate::store::{Column, ColumnData, Table};
 use anyhow::ensure;
 
 /// The state at time 0.
-pub fn initial(disk: &DiskCase) -> anyhow::Result<State> {
-    Ok(start(disk, &disk.disk.chain()?)?)
+pub fn initial(disk: &DiskCase, amplitude_bound: f64) -> anyhow::Result<State> {
+    start(disk, &disk.disk.chain()?, amplitude_bound)
 }
 
 /// The motion in Rapier.

@@ -2,12 +2,13 @@
 
 use super::super::common::{Common, Document, print};
 use super::super::plot::PlotArgs;
+use super::super::progress::Heartbeat;
 use super::super::simulate::refuse_to_overwrite;
 use super::super::{Verdict, case_args::EngineArgs, motions};
-use super::solver::{Seen, Solver, observe};
-use crate::disk::strongest;
+use super::solver::{Motion, Seen, Solver};
+use crate::disk::{LONGEST_MOTION, strongest};
 use crate::dynamics::{Outcome, Sampling, State};
-use crate::model::{Mistuning, NodalDiameter, OscillatorChain, ParameterError, Topology};
+use crate::model::{Mistuning, NodalDiameter, OscillatorChain, Range, Topology};
 use crate::report::{Chart, Series, Style, Tint};
 use crate::scene::DiskCase;
 use crate::store::{Column, ColumnData, Table, write_table};
@@ -38,7 +39,7 @@ pub struct MotionArgs {
     /// How to move the disk.
     #[arg(long = "with", value_enum, default_value_t = Solver::Exact)]
     solver: Solver,
-    /// Length of the motion; that of the scene without it.
+    /// Length of the motion, at most 1e8; that of the scene without it.
     #[arg(long, allow_hyphen_values = true)]
     t_end: Option<f64>,
     /// Time between two samples.
@@ -59,7 +60,15 @@ pub fn run(args: &MotionArgs) -> anyhow::Result<Verdict> {
     );
     args.plot.check(args.common.force)?;
     let (whole, case) = super::load_case(&args.scene, Some(&args.engine))?;
-    let sampling = Sampling { interval: args.sample, t_end: args.t_end.unwrap_or(whole.duration) };
+    let sampling = Sampling {
+        interval: Range::Positive.check("--sample", args.sample)?,
+        t_end: Range::NonNegative.check("--t-end", args.t_end.unwrap_or(whole.duration))?,
+    };
+    ensure!(
+        sampling.t_end <= LONGEST_MOTION,
+        "--t-end {:e} is too long, allowed are {LONGEST_MOTION:e}: even a small disk takes minutes for that",
+        sampling.t_end
+    );
     let samples = sampling.t_end / sampling.interval * case.disk.sectors as f64;
     ensure!(
         samples <= MOST_SAMPLES,
@@ -67,8 +76,10 @@ pub fn run(args: &MotionArgs) -> anyhow::Result<Verdict> {
         args.sample
     );
     let engine = motions::engine_settings(&whole, sampling);
-    let mut parameters =
-        json!({"disk": case.disk, "start": case.start, "sampling": sampling, "with": args.solver.word()});
+    let mut parameters = json!({
+        "disk": case.disk, "start": case.start, "sampling": sampling, "with": args.solver.word(),
+        "amplitude_bound": whole.amplitude_bound,
+    });
     if args.solver == Solver::Rapier {
         parameters["engine"] = json!(engine);
     }
@@ -76,8 +87,10 @@ pub fn run(args: &MotionArgs) -> anyhow::Result<Verdict> {
         refuse_to_overwrite(path, &parameters, args.common.force)?;
     }
     let ring = case.disk.topology == Topology::Ring;
-    let from = start(&case, &case.disk.chain()?)?;
-    let seen = observe(args.solver, &case.disk, &from, sampling, engine)?;
+    let from = start(&case, &case.disk.chain()?, whole.amplitude_bound)?;
+    let heartbeat = Heartbeat::new(args.common.quiet, "motion", "% of the time");
+    let motion = Motion { disk: &case.disk, start: &from, sampling, amplitude_bound: whole.amplitude_bound };
+    let seen = motion.observe(args.solver, engine, |t| heartbeat.at((100.0 * t / sampling.t_end) as usize, 100))?;
     if let Some(path) = &args.common.output {
         write_table(path, &table(&seen.times, &seen.rows, ring, &parameters))?;
     }
@@ -104,8 +117,8 @@ fn document(seen: &Seen, parameters: Value, ring: bool) -> Document {
         .with("diverged", json!(seen.outcome != Outcome::Completed))
 }
 
-/// The state a disk starts from.
-pub fn start(case: &DiskCase, chain: &OscillatorChain) -> Result<State, ParameterError> {
+/// The state a disk starts from, within the amplitude bound.
+pub fn start(case: &DiskCase, chain: &OscillatorChain, amplitude_bound: f64) -> anyhow::Result<State> {
     let n = case.disk.sectors;
     let mut state = State::rest(chain);
     if case.start.noise > 0.0 {
@@ -120,6 +133,13 @@ pub fn start(case: &DiskCase, chain: &OscillatorChain) -> Result<State, Paramete
             state.velocities[j] -= wave.amplitude * angle.sin();
         }
     }
+    // Not only where a solver would mind: all of them start from the same state. NaN, from infinite parts that cancel, lies beyond too.
+    let largest =
+        state.positions.iter().chain(&state.velocities).map(|x| x.abs()).max_by(f64::total_cmp).unwrap_or(0.0);
+    ensure!(
+        largest <= amplitude_bound,
+        "[disk_start] moves a blade by {largest:e}, beyond the amplitude bound {amplitude_bound}: start smaller, or raise amplitude_bound in [simulation]"
+    );
     Ok(state)
 }
 
@@ -127,7 +147,7 @@ pub fn start(case: &DiskCase, chain: &OscillatorChain) -> Result<State, Paramete
 fn order(count: usize, ring: bool) -> Vec<(usize, String)> {
     match ring {
         true => NodalDiameter::all(count).map(|wave| (wave.index(), format!("wave {:+}", wave.signed()))).collect(),
-        false => (0..count).map(|j| (j, format!("blade {j}"))).collect(),
+        false => (0..count).map(|j| (j, format!("amplitude of blade {j}"))).collect(),
     }
 }
 

@@ -3,29 +3,33 @@
 use super::super::Verdict;
 use super::super::common::{Common, Document, print};
 use super::super::plot::PlotArgs;
-use crate::disk::{
-    DESCRIBING_FUNCTION, DiskError, MANY_HARMONICS, TravellingWave, largest_by_wave, ring_wave, wave_multipliers,
-};
-use crate::exact::SparseFlow;
-use crate::model::{BladedDisk, ModesError, NodalDiameter};
+use super::super::progress::Heartbeat;
+use crate::disk::{DiskError, FailedCandidate, FoundWaves, NEUTRAL_MULTIPLIER, OrbitStability, Searched, WaveCycle};
+use crate::model::{BladedDisk, NodalDiameter};
 use crate::report::{Chart, Series, Style, Tint};
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Travelling-wave limit cycles of the tuned ring: amplitude and frequency by nodal diameter, stability against every other wave.
 ///
-/// Of each nodal diameter it gives one limit cycle, that of least amplitude beyond the slip limit of the lowest family (of disks with segments). Where
-/// further ones of larger amplitude exist, the next is unstable and bounds what friction holds: a wave that starts beyond it grows without bound
-/// although a limit cycle is listed.
+/// Every nodal diameter and direction is searched over the amplitude of its contacts, from 1 to 1000 slip elongations, in every mode of the sector,
+/// whether the wave is damped at rest or fed. The describing function is computed at 513 amplitudes (neighbours at most 22 % apart, near the slip
+/// limit far less), and between them its extremes are sought, so that pairs of cycles close together are found. What it finds is solved for on the whole
+/// ring. Not found are cycles that the describing function does not have, and motions that are no travelling waves. A search that sees a cycle beyond the
+/// largest amplitude says so (`searched.beyond`). A cycle that could not be solved for is a row with its reason and makes the exit status 1.
+///
+/// An unstable cycle bounds what the stable ones beside it, or rest, attract: a wave that starts beyond it goes elsewhere.
 ///
 /// A perturbation of relative nodal diameter r comes with -r, as the multipliers are conjugate: the waves n + r and n - r grow together. With --json
-/// `growth` lists all waves and `fastest` those that grow most, with their common multiplier. Within 1e-9 of 1 a multiplier is neutral.
+/// `growth` lists all waves and `fastest` those that grow most, with their common multiplier over a period. Within 1e-9 of 1 a multiplier is neutral.
+/// `limit_cycles` lists all cycles of a wave by family and amplitude, `limit_cycle` is the first of them, `failed` what could not be solved for.
 ///
-/// Amplitudes come from one sector (harmonic balance) and from the whole ring (exact flow, shooting); multipliers from the exact flow. Mistuning
-/// of the scene is left out.
+/// Amplitudes come from one sector (harmonic balance; null where it does not converge) and from the whole ring (exact flow, shooting); multipliers
+/// from the exact flow. Mistuning of the scene is left out.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip disk waves scenes/disk_forward_wave.toml --plot waves.svg")]
 pub struct WavesArgs {
@@ -36,41 +40,22 @@ pub struct WavesArgs {
     common: Common,
 }
 
-/// A wave that has a limit cycle.
+/// A limit cycle of a wave.
 #[derive(Debug, Serialize)]
 struct Cycle {
+    /// Number of the mode of the sector by frequency, 0 the lowest.
+    family: usize,
     amplitude: f64,
-    amplitude_from_one_sector: f64,
+    amplitude_from_one_sector: Option<f64>,
     amplitude_by_describing_function: f64,
     angular_frequency: f64,
     residual: f64,
     /// All multipliers but the one along the motion are less than 1, and not neutral.
     stable: bool,
-    stability: Stability,
+    stability: OrbitStability,
     fastest: Fastest,
     /// Largest modulus of the multipliers over a period by the wave of the perturbation.
     growth: Vec<Growth>,
-}
-
-/// Multipliers this near to 1 in modulus are neutral: orbits close to some 1e-12, and their multipliers to about a thousand times that.
-const NEUTRAL: f64 = 1e-9;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-enum Stability {
-    Stable,
-    Neutral,
-    Unstable,
-}
-
-impl Stability {
-    fn of(multiplier: f64) -> Self {
-        match multiplier - 1.0 {
-            d if d < -NEUTRAL => Self::Stable,
-            d if d > NEUTRAL => Self::Unstable,
-            _ => Self::Neutral,
-        }
-    }
 }
 
 /// What grows most: n - r and n + r, one wave where they are the same, and more only where their multipliers coincide.
@@ -83,7 +68,7 @@ struct Fastest {
 impl Fastest {
     fn of(growth: &[Growth]) -> Self {
         let multiplier = growth.iter().map(|g| g.multiplier).fold(0.0, f64::max);
-        let together = growth.iter().filter(|g| g.multiplier >= multiplier * (1.0 - NEUTRAL));
+        let together = growth.iter().filter(|g| g.multiplier >= multiplier * (1.0 - NEUTRAL_MULTIPLIER));
         Self { nodal_diameters: together.map(|g| g.nodal_diameter).collect(), multiplier }
     }
 
@@ -103,106 +88,178 @@ struct Growth {
     multiplier: f64,
 }
 
+/// What is known of a wave; an error speaks of it alone.
+struct Row {
+    wave: NodalDiameter,
+    found: Result<Found, DiskError>,
+}
+
+struct Found {
+    searched: Searched,
+    cycles: Vec<Cycle>,
+    failed: Vec<FailedCandidate>,
+}
+
+impl Row {
+    fn of(disk: &BladedDisk, wave: NodalDiameter) -> Self {
+        let found = FoundWaves::of(disk, wave).map(|FoundWaves { searched, cycles, failed }| Found {
+            searched,
+            cycles: cycles.iter().map(|cycle| Cycle::of(cycle, disk.sectors)).collect(),
+            failed,
+        });
+        Self { wave, found }
+    }
+
+    fn is_whole(&self) -> bool {
+        self.found.as_ref().is_ok_and(|found| found.failed.is_empty())
+    }
+
+    /// Why there is no limit cycle.
+    fn reason(&self) -> Option<String> {
+        match &self.found {
+            Err(error) => Some(error.to_string()),
+            Ok(found) if !found.cycles.is_empty() => None,
+            Ok(found) => Some(match found.failed.first() {
+                Some(failed) => failed.error.to_string(),
+                None => format!("no limit cycle that slips {}", within(&found.searched)),
+            }),
+        }
+    }
+
+    fn json(&self) -> Value {
+        let found = self.found.as_ref().ok();
+        let cycles = found.map_or(&[][..], |found| &found.cycles[..]);
+        let failed = found.map_or(&[][..], |found| &found.failed[..]);
+        let failure = |failed: &FailedCandidate| {
+            json!({
+                "family": failed.candidate.family, "elongation_by_describing_function": failed.candidate.elongation,
+                "angular_frequency": failed.candidate.angular_frequency, "reason": failed.error.to_string(),
+            })
+        };
+        json!({
+            "nodal_diameter": self.wave.signed(),
+            "direction": self.wave.direction(),
+            "limit_cycle": cycles.first(),
+            "limit_cycles": cycles,
+            "failed": failed.iter().map(failure).collect::<Vec<_>>(),
+            "searched": found.map(|found| searched_json(&found.searched)),
+            "reason": self.reason(),
+        })
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let n = self.wave.signed();
+        let Ok(found) = &self.found else {
+            return vec![format!("{n:>14}  not searched: {}", self.reason().unwrap_or_default())];
+        };
+        let cycle =
+            |c: &Cycle| format!("{n:>14}  {:<14.10}  {:<17.12}  {}", c.amplitude, c.angular_frequency, stability(c));
+        let failed = |f: &FailedCandidate| format!("{n:>14}  not solved for: {}", f.error);
+        let mut lines: Vec<String> = found.cycles.iter().map(cycle).chain(found.failed.iter().map(failed)).collect();
+        if lines.is_empty() {
+            lines.push(format!("{n:>14}  no limit cycle found"));
+        }
+        if found.searched.beyond {
+            lines.push(format!("{n:>14}  another one beyond the largest amplitude searched"));
+        }
+        lines
+    }
+}
+
+fn within(searched: &Searched) -> String {
+    let [least, most] = searched.elongations;
+    let further = if searched.beyond { ", but one beyond" } else { "" };
+    format!("at elongations from {least} to {most}, searched by the describing function in every mode{further}")
+}
+
+fn searched_json(searched: &Searched) -> Value {
+    json!({
+        "elongations": searched.elongations, "amplitudes": searched.amplitudes, "largest_ratio": searched.largest_ratio,
+        "eigenvalues": searched.eigenvalues, "beyond": searched.beyond,
+    })
+}
+
 pub fn run(args: &WavesArgs) -> anyhow::Result<Verdict> {
     args.common.no_files("disk waves")?;
     args.plot.check(args.common.force)?;
     let disk = super::load(&args.scene)?.disk.tuned();
-    let flow = SparseFlow::new(&disk.chain()?);
     let waves: Vec<NodalDiameter> = NodalDiameter::all(disk.sectors).collect();
-    let found: Vec<(NodalDiameter, Result<Cycle, DiskError>)> =
-        waves.into_par_iter().map(|wave| (wave, cycle(&disk, &flow, wave))).collect();
-    let mut rows = Vec::new();
-    for (wave, cycle) in found {
-        match cycle {
-            Ok(cycle) => rows.push((wave, Ok(cycle))),
-            Err(error) if of_one_wave(&error) => rows.push((wave, Err(error))),
-            Err(error) => return Err(error.into()),
-        }
-    }
+    // A disk without waves is refused whole, before any is searched.
+    FoundWaves::check(&disk)?;
+    let heartbeat = Heartbeat::new(args.common.quiet, "waves", "nodal diameters");
+    let (done, all) = (AtomicUsize::new(0), waves.len());
+    let row = |wave| {
+        let row = Row::of(&disk, wave);
+        heartbeat.at(done.fetch_add(1, Ordering::Relaxed) + 1, all);
+        row
+    };
+    let rows: Vec<Row> = waves.into_par_iter().map(row).collect();
+    let verdict = if rows.iter().all(Row::is_whole) { Verdict::Done } else { Verdict::Failed };
     args.plot.draw(|| Ok(chart(&rows)))?;
     if args.common.json {
-        let row = |(wave, cycle): &(NodalDiameter, Result<Cycle, DiskError>)| {
-            let (cycle, reason) = (cycle.as_ref().ok(), cycle.as_ref().err().map(ToString::to_string));
-            json!({"nodal_diameter": wave.signed(), "direction": wave.direction(), "limit_cycle": cycle, "reason": reason})
-        };
         let document = Document::new("disk waves", json!({"disk": disk}))
-            .with("waves", json!(rows.iter().map(row).collect::<Vec<_>>()));
-        return print(&document.text()?).map(|()| Verdict::Done);
+            .with("waves", json!(rows.iter().map(Row::json).collect::<Vec<_>>()));
+        return print(&document.text()?).map(|()| verdict);
     }
     print("nodal diameter  amplitude       angular frequency  stability")?;
-    for (wave, cycle) in &rows {
-        let n = wave.signed();
-        print(&match cycle {
-            Ok(c) => format!("{n:>14}  {:<14.10}  {:<17.12}  {}", c.amplitude, c.angular_frequency, stability(c)),
-            Err(DiskError::NoWave { .. } | DiskError::NoSlip { .. }) => format!("{n:>14}  no limit cycle"),
-            Err(error) => format!("{n:>14}  not found: {error}"),
-        })?;
+    for line in rows.iter().flat_map(Row::lines) {
+        print(&line)?;
     }
-    Ok(Verdict::Done)
-}
-
-/// Whether a failure says something about its wave alone; the other waves are shown then.
-fn of_one_wave(error: &DiskError) -> bool {
-    use DiskError::{ManyReversals, Modes, NoConvergence, NoSlip, NoWave, Orbit};
-    matches!(
-        error,
-        NoWave { .. }
-            | NoSlip { .. }
-            | ManyReversals { .. }
-            | NoConvergence { .. }
-            | Orbit(_)
-            | Modes(ModesError::NoConvergence { .. })
-    )
+    if let Some(found) = rows.iter().find_map(|row| row.found.as_ref().ok()) {
+        let Searched { elongations: [least, most], amplitudes, eigenvalues, .. } = found.searched;
+        print(&format!(
+            "searched: elongations of the contacts from {least} to {most} at {amplitudes} amplitudes, all {eigenvalues} eigenvalues of a sector, by the describing function"
+        ))?;
+    }
+    Ok(verdict)
 }
 
 fn stability(cycle: &Cycle) -> String {
     let Fastest { nodal_diameters, multiplier } = &cycle.fastest;
     let names = cycle.fastest.names();
     match cycle.stability {
-        Stability::Stable => format!("stable, largest multiplier {multiplier:.6} ({names})"),
-        Stability::Neutral => format!("neutral, largest multiplier 1 to rounding ({names})"),
-        Stability::Unstable if nodal_diameters.len() > 1 => {
+        OrbitStability::Stable => format!("stable, largest multiplier {multiplier:.6} ({names})"),
+        OrbitStability::Neutral => format!("neutral, largest multiplier 1 to rounding ({names})"),
+        OrbitStability::Unstable if nodal_diameters.len() > 1 => {
             format!("unstable: {names} grow together by {multiplier:.6} per period")
         }
-        Stability::Unstable => format!("unstable: {names} grows by {multiplier:.6} per period"),
+        OrbitStability::Unstable => format!("unstable: {names} grows by {multiplier:.6} per period"),
     }
 }
 
-fn cycle(disk: &BladedDisk, flow: &SparseFlow, wave: NodalDiameter) -> Result<Cycle, DiskError> {
-    let estimate = TravellingWave::of(disk, wave, DESCRIBING_FUNCTION)?;
-    let one = TravellingWave::of(disk, wave, MANY_HARMONICS)?;
-    let whole = ring_wave(flow, &one)?;
-    let multipliers = wave_multipliers(flow, disk, wave, &whole.orbit)?;
-    let by_wave = largest_by_wave(&multipliers, disk.sectors);
-    let seen = |relative: NodalDiameter| NodalDiameter::new(wave.signed() + relative.signed(), disk.sectors).signed();
-    let growth: Vec<Growth> = by_wave
-        .iter()
-        .map(|(relative, multiplier)| Growth { nodal_diameter: seen(*relative), multiplier: *multiplier })
-        .collect();
-    let fastest = Fastest::of(&growth);
-    let stability = Stability::of(fastest.multiplier);
-    Ok(Cycle {
-        amplitude: whole.amplitude,
-        amplitude_from_one_sector: one.amplitude,
-        amplitude_by_describing_function: estimate.amplitude,
-        angular_frequency: whole.orbit.angular_frequency(),
-        residual: whole.orbit.residual,
-        stable: stability == Stability::Stable,
-        stability,
-        fastest,
-        growth,
-    })
+impl Cycle {
+    fn of(found: &WaveCycle, sectors: usize) -> Self {
+        let wave = found.ring.wave.signed();
+        let seen = |relative: NodalDiameter| NodalDiameter::new(wave + relative.signed(), sectors).signed();
+        let growth: Vec<Growth> = found
+            .growth
+            .iter()
+            .map(|(relative, multiplier)| Growth { nodal_diameter: seen(*relative), multiplier: *multiplier })
+            .collect();
+        Self {
+            family: found.family,
+            amplitude: found.ring.amplitude,
+            amplitude_from_one_sector: found.amplitude_from_one_sector,
+            amplitude_by_describing_function: found.amplitude_by_describing_function,
+            angular_frequency: found.ring.orbit.angular_frequency(),
+            residual: found.ring.orbit.residual,
+            stable: found.stability == OrbitStability::Stable,
+            stability: found.stability,
+            fastest: Fastest::of(&growth),
+            growth,
+        }
+    }
 }
 
-fn chart(rows: &[(NodalDiameter, Result<Cycle, DiskError>)]) -> Chart {
+fn chart(rows: &[Row]) -> Chart {
+    let found = |row: &Row| -> Vec<(f64, bool, f64)> {
+        let cycles = row.found.as_ref().map_or(&[][..], |found| &found.cycles[..]);
+        cycles.iter().map(|cycle| (row.wave.signed() as f64, cycle.stable, cycle.amplitude)).collect()
+    };
+    let cycles: Vec<(f64, bool, f64)> = rows.iter().flat_map(found).collect();
     let series = |label: &str, stable: bool, tint| Series {
         label: label.to_owned(),
-        points: rows
-            .iter()
-            .filter_map(|(wave, cycle)| cycle.as_ref().ok().map(|cycle| (wave, cycle)))
-            .filter(|(_, cycle)| cycle.stable == stable)
-            .map(|(wave, cycle)| (wave.signed() as f64, cycle.amplitude))
-            .collect(),
+        points: cycles.iter().filter(|cycle| cycle.1 == stable).map(|cycle| (cycle.0, cycle.2)).collect(),
         style: Style::Markers,
         tint,
     };
@@ -226,12 +283,5 @@ mod tests {
         let fastest = Fastest::of(&growth);
         assert_eq!((&fastest.nodal_diameters[..], fastest.names().as_str()), (&[2, 4][..], "waves 2 and 4"));
         assert_eq!(Fastest::of(&growth[..2]).names(), "wave 2");
-    }
-
-    #[test]
-    fn a_multiplier_of_one_to_rounding_is_neutral() {
-        assert_eq!(Stability::of(1.0 + 1e-13), Stability::Neutral);
-        assert_eq!(Stability::of(1.0 - 1e-13), Stability::Neutral);
-        assert_eq!((Stability::of(1.0 + 1e-8), Stability::of(1.0 - 1e-8)), (Stability::Unstable, Stability::Stable));
     }
 }

@@ -63,4 +63,5 @@ pub use mistuning::{Harmonic, Mistuning};
 pub use mode_shape::ModeShape;
 pub use spectrum::Spectrum;
 pub use tuned::TunedMode;
+pub(crate) use tuned::sector_eigenvalues;
 pub use wave::{NodalDiameter, TravelDirection};

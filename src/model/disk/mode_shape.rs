@@ -16,6 +16,8 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 /// Distance of the shift from the eigenvalue, relative: far beyond its rounding, far below any gap that matters.
 const SHIFT: f64 = 1e-10;
+/// Eigenvalues below this part of the largest are shifted by [`SHIFT`] of it: their rounding is that of the largest.
+const SMALL: f64 = 1e-3;
 
 /// Waves n and -n whose shares differ by less than this part of their sum stand. Shapes without air are real to rounding over the smallest gap between
 /// frequencies, so that their shares differ by less; what travels by one part in a million is standing to any eye.
@@ -30,27 +32,28 @@ pub struct ModeShape {
 }
 
 impl OscillatorChain {
-    /// Oscillating modes with their shapes in order of angular frequency; overdamped ones are left out. `sticking` as in
-    /// [`OscillatorChain::linear_modes`].
+    /// All modes of [`OscillatorChain::linear_modes`] with their shapes, in its order: those that do not oscillate come first.
     ///
     /// # Errors
     /// As [`OscillatorChain::linear_modes`]; [`ModesError::NoShape`] if a shape is not found.
     pub fn mode_shapes(&self, sticking: &[bool]) -> Result<Vec<ModeShape>, ModesError> {
         let modes = self.linear_modes(sticking)?;
         let (stiffness, damping) = (self.stiffness_with(sticking), self.total_damping());
-        let oscillating = modes.into_iter().filter(|mode| mode.angular_frequency > 0.0);
-        oscillating.map(|mode| shape_of(self, &stiffness, &damping, mode)).collect()
+        let largest = modes.iter().flat_map(LinearMode::eigenvalues).map(|s| s.norm()).fold(0.0, f64::max);
+        modes.into_iter().map(|mode| shape_of(self, [&stiffness, &damping], mode, largest)).collect()
     }
 }
 
 fn shape_of(
     chain: &OscillatorChain,
-    stiffness: &DMatrix<f64>,
-    damping: &DMatrix<f64>,
+    [stiffness, damping]: [&DMatrix<f64>; 2],
     mode: LinearMode,
+    largest: f64,
 ) -> Result<ModeShape, ModesError> {
     let s = Complex::new(-0.5 * mode.damping, mode.angular_frequency);
-    let shifted = s * (1.0 + SHIFT);
+    // Nothing holds and nothing damps: every shift is as good.
+    let scale = if largest > 0.0 { largest } else { 1.0 };
+    let shifted = if s.norm() > SMALL * scale { s * (1.0 + SHIFT) } else { s + SHIFT * scale };
     let n = chain.oscillators();
     let pencil = DMatrix::from_fn(n, n, |i, j| {
         let inertia = if i == j { shifted * shifted * chain.mass()[i] } else { Complex::ZERO };
