@@ -9,7 +9,7 @@ use crate::engine::{self, EngineFlow, EngineInfo, EngineSettings, Recording};
 use crate::exact;
 use crate::model::{RigParameters, TwoMassRig};
 use crate::orbit::{OrbitError, PeriodicOrbit, limit_cycle};
-use crate::scene::{Case, Initial, Joints, MotionKind, Precision, Scheme};
+use crate::scene::{Case, DEFAULT_PERTURBATION, Initial, Joints, MotionKind, Precision, Scheme};
 use anyhow::{Context, ensure};
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ pub fn exact_limit_cycle(parameters: RigParameters) -> Result<PeriodicOrbit, Orb
 /// The state at time 0.
 pub fn start(case: &Case) -> anyhow::Result<State> {
     if let Some(disk) = &case.disk {
-        return filmed::initial(disk);
+        return filmed::initial(disk, case.amplitude_bound);
     }
     if let Some(motion) = case.prescribed {
         let slider_force = match case.initial {
@@ -43,7 +43,7 @@ pub fn start(case: &Case) -> anyhow::Result<State> {
             let orbit = exact_limit_cycle(case.parameters)
                 .context("the motion was to start on the limit cycle; give an initial state instead (--initial, or [initial] in the scene)")?;
             let mut state = orbit.reversal();
-            state.positions[1] += perturbation;
+            state.positions[1] += perturbation.unwrap_or(DEFAULT_PERTURBATION);
             Ok(state)
         }
     }

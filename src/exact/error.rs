@@ -17,7 +17,7 @@ pub enum ExactError {
     )]
     TooManySamples { interval: f64, t_end: f64, found: f64, allowed: usize },
     #[error(
-        "initial {field}[{index}] = {found} lies beyond {bound}: start within the amplitude bound or raise it with `with_amplitude_bound`"
+        "initial {field}[{index}] = {found} lies beyond {bound}: start within the amplitude bound, or raise it (`amplitude_bound`)"
     )]
     StartsBeyondBound { field: &'static str, index: usize, found: f64, bound: f64 },
     #[error("the motion leaves the amplitude bound {bound} at time {time}, before {asked}: ask for a shorter span")]

@@ -1,6 +1,6 @@
 //! A scene made ready: validated, non-dimensional, with the units to go back.
 
-use super::description::{Engine, Film, Initial, MotionKind, Scene};
+use super::description::{DEFAULT_AMPLITUDE_BOUND, DEFAULT_PERTURBATION, Engine, Film, Initial, MotionKind, Scene};
 use super::direction::{Direction, Panel};
 use super::disk::DiskCase;
 use super::error::{Fault, Place, SceneError};
@@ -71,8 +71,10 @@ impl Scene {
     pub(super) fn resolve(&self) -> Result<Case, Refusal> {
         let (parameters, scales) = self.rig_and_scales()?;
         let duration = checked(Range::Positive, "simulation.duration", self.simulation.duration)? / scales.time;
-        let amplitude_bound =
-            checked(Range::Positive, "simulation.amplitude_bound", self.simulation.amplitude_bound)? / scales.length;
+        let amplitude_bound = match self.simulation.amplitude_bound {
+            Some(bound) => checked(Range::Positive, "simulation.amplitude_bound", bound)? / scales.length,
+            None => DEFAULT_AMPLITUDE_BOUND,
+        };
         let horizon = match self.check.horizon {
             Some(horizon) => (checked(Range::Positive, "check.horizon", horizon)? / scales.time).min(duration),
             None => duration,
@@ -112,8 +114,11 @@ impl Scene {
     fn initial_state(&self, scales: &Scales) -> Result<Initial, Refusal> {
         match self.initial {
             Initial::LimitCycle { perturbation } => {
-                let perturbation = checked(Range::Finite, "initial.perturbation", perturbation)? / scales.length;
-                Ok(Initial::LimitCycle { perturbation })
+                let perturbation = match perturbation {
+                    Some(given) => checked(Range::Finite, "initial.perturbation", given)? / scales.length,
+                    None => DEFAULT_PERTURBATION,
+                };
+                Ok(Initial::LimitCycle { perturbation: Some(perturbation) })
             }
             Initial::State { state } => {
                 for value in state {

@@ -53,23 +53,23 @@ pub struct Scene {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "start", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Initial {
-    /// On the limit cycle, at a reversal of mass 1, with `perturbation` added to the position of mass 2.
+    /// On the limit cycle, at a reversal of mass 1, with `perturbation` added to the position of mass 2: 0.001 slip lengths where not given.
     LimitCycle {
-        #[serde(default = "default_perturbation")]
-        perturbation: f64,
+        #[serde(default)]
+        perturbation: Option<f64>,
     },
     /// At `[x1, x2, v1, v2, f]`; in SI m, m/s and the slider force in N.
     State { state: [f64; 5] },
 }
 
-/// Perturbation of the limit cycle where none is given, in non-dimensional units or metres.
-fn default_perturbation() -> f64 {
-    0.001
-}
+/// Perturbation of the limit cycle where none is given, in slip lengths.
+pub const DEFAULT_PERTURBATION: f64 = 0.001;
+/// Displacement beyond which a motion has diverged where no bound is given, in slip lengths.
+pub(super) const DEFAULT_AMPLITUDE_BOUND: f64 = 1000.0;
 
 impl Default for Initial {
     fn default() -> Self {
-        Self::LimitCycle { perturbation: default_perturbation() }
+        Self::LimitCycle { perturbation: None }
     }
 }
 
@@ -79,13 +79,13 @@ impl Default for Initial {
 pub struct Simulation {
     /// Length of the motion.
     pub duration: f64,
-    /// The motion has diverged once |x1| or |x2| exceeds this.
-    pub amplitude_bound: f64,
+    /// The motion has diverged once |x1| or |x2| exceeds this: 1000 slip lengths where not given.
+    pub amplitude_bound: Option<f64>,
 }
 
 impl Default for Simulation {
     fn default() -> Self {
-        Self { duration: 160.0, amplitude_bound: 1000.0 }
+        Self { duration: 160.0, amplitude_bound: None }
     }
 }
 

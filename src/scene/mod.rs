@@ -11,7 +11,8 @@ mod story;
 
 pub use case::Case;
 pub use description::{
-    Backdrop, Check, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme, Simulation, Theme,
+    Backdrop, Check, DEFAULT_PERTURBATION, Engine, Film, Initial, Joints, MotionKind, Precision, Scene, Scheme,
+    Simulation, Theme,
 };
 pub use direction::{CameraMove, Caption, Direction, Easing, Key, Panel, SlowMotion, View};
 pub use disk::{DiskCase, DiskStart, WaveStart};

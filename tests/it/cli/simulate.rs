@@ -92,3 +92,22 @@ fn a_prescribed_motion_needs_no_initial_state() {
     assert_eq!(json["final"]["x2"], 0.0);
     assert!((json["final"]["x1"].as_f64().unwrap() - 2.0 * 3.0_f64.sin()).abs() < 1e-14);
 }
+
+/// A slip length of half a micrometre: bounds and perturbations in metres would start the motion 1000 slip lengths off its cycle.
+#[test]
+fn defaults_of_an_si_scene_are_in_slip_lengths() {
+    let given =
+        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/si_micrometre_contact.toml")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for slip_force in [5.0, 11.0] {
+        let text = given.replace("slip_force = 5.0", &format!("slip_force = {slip_force:?}"));
+        let scene = scene_file(folder.path(), &text);
+        let out = folder.path().join(format!("{slip_force}.csv"));
+        let json = document(&["simulate", "--scene", &scene, "-o", out.to_str().unwrap(), "--json"]);
+        assert_eq!(json["diverged"], false);
+        // The limit cycle and the torus of this rig stay below some slip lengths.
+        let slip_length = if json["units"] == "si" { slip_force / 1e7 } else { 1.0 };
+        let x1 = json["final"]["x1"].as_f64().unwrap() / slip_length;
+        assert!(x1.abs() < 5.0, "{slip_force}: {x1} slip lengths");
+    }
+}
