@@ -5,7 +5,7 @@
 //! that are there already are taken over.
 
 use super::error::ChaosError;
-use super::motion_class::{Criteria, Evidence, MotionClass, classify};
+use super::motion_class::{Criteria, Evidence, KnownCycle, MotionClass, classify_settled};
 use super::window::Window;
 use crate::dynamics::{DenseFlow, State};
 use rayon::prelude::*;
@@ -17,12 +17,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub struct DiagramPlan {
     pub window: Window,
     pub criteria: Criteria,
+    /// How often a motion that has not settled is followed further, each time twice as long.
+    pub extensions: usize,
 }
 
 impl Default for DiagramPlan {
     /// 5000 time units, the first 1500 of them transient.
     fn default() -> Self {
-        Self { window: Window { transient: 1500.0, length: 3500.0 }, criteria: Criteria::default() }
+        Self { window: Window { transient: 1500.0, length: 3500.0 }, criteria: Criteria::default(), extensions: 0 }
     }
 }
 
@@ -54,7 +56,7 @@ pub struct DivergenceEdge {
 /// any thread: row, rows done, rows in all.
 ///
 /// # Errors
-/// The first error in the order of the values: [`ChaosError::Preparation`] from `prepare`, otherwise as [`classify`].
+/// The first error in the order of the values: [`ChaosError::Preparation`] from `prepare`, otherwise as [`super::classify`].
 pub fn amplitude_diagram<F, E>(
     values: &[f64],
     plan: &DiagramPlan,
@@ -66,27 +68,44 @@ where
     F: DenseFlow,
     E: std::error::Error + Send + Sync + 'static,
 {
+    // Collected first, so that which error is returned does not depend on which thread was faster.
+    every_row(values, plan, finished, prepare, |_| None, progress).into_iter().collect()
+}
+
+/// The same with every row, those that failed among them; `cycle` gives the limit cycle solved for at a value, whose multipliers decide
+/// where the motion approaches it.
+pub fn every_row<F, E>(
+    values: &[f64],
+    plan: &DiagramPlan,
+    finished: &[DiagramRow],
+    prepare: impl Fn(f64) -> Result<(F, State), E> + Sync,
+    cycle: impl Fn(f64) -> Option<KnownCycle> + Sync,
+    progress: impl Fn(&DiagramRow, usize, usize) + Sync,
+) -> Vec<Result<DiagramRow, ChaosError>>
+where
+    F: DenseFlow,
+    E: std::error::Error + Send + Sync + 'static,
+{
     let known = |value: f64| finished.iter().find(|row| row.value.to_bits() == value.to_bits()).copied();
     let done = AtomicUsize::new(values.iter().filter(|value| known(**value).is_some()).count());
-    let rows: Vec<Result<DiagramRow, ChaosError>> = values
+    values
         .par_iter()
         .map(|&value| {
             if let Some(row) = known(value) {
                 return Ok(row);
             }
-            let row = diagram_row(value, plan, &prepare)?;
+            let row = diagram_row(value, plan, &prepare, cycle(value).as_ref())?;
             progress(&row, done.fetch_add(1, Ordering::Relaxed) + 1, values.len());
             Ok(row)
         })
-        .collect();
-    // Collected first, so that which error is returned does not depend on which thread was faster.
-    rows.into_iter().collect()
+        .collect()
 }
 
 fn diagram_row<F, E>(
     value: f64,
     plan: &DiagramPlan,
     prepare: impl Fn(f64) -> Result<(F, State), E>,
+    cycle: Option<&KnownCycle>,
 ) -> Result<DiagramRow, ChaosError>
 where
     F: DenseFlow,
@@ -94,7 +113,7 @@ where
 {
     let (flow, initial) =
         prepare(value).map_err(|source| ChaosError::Preparation { value, source: Box::new(source) })?;
-    let found = classify(&flow, &initial, plan.window, &plan.criteria)?;
+    let found = classify_settled(&flow, &initial, plan.window, &plan.criteria, cycle, plan.extensions)?;
     Ok(DiagramRow {
         value,
         a1_max: found.amplitude_range.map(|(largest, _)| largest),

@@ -15,10 +15,10 @@ mod rotation;
 mod window;
 mod zero_one;
 
-pub use diagram::{DiagramPlan, DiagramRow, DivergenceEdge, amplitude_diagram, divergence_edge};
+pub use diagram::{DiagramPlan, DiagramRow, DivergenceEdge, amplitude_diagram, divergence_edge, every_row};
 pub use error::ChaosError;
 pub use lyapunov::{ConvergencePoint, LyapunovOutcome, LyapunovPlan, LyapunovSpectrum, lyapunov_spectrum};
-pub use motion_class::{Classification, Criteria, Evidence, MotionClass, classify};
+pub use motion_class::{Classification, Criteria, Decision, Evidence, KnownCycle, MotionClass, classify};
 pub use poincare::{PoincareMap, PoincareSection, poincare_map};
 pub use rotation::{Rotation, torus_rotation};
 pub use window::Window;

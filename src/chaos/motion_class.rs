@@ -6,6 +6,9 @@
 //! |---|---|
 //! | diverged | some \|x\| exceeds the amplitude bound of the flow |
 //! | equilibrium | no slip in the window, and x1 swings less in the second half than in the first, or below [`Criteria::rest`] |
+//! | not settled | no slip in the window, and x1 swings more in the second half: the motion still grows towards its slip limit |
+//! | neutral | no slip in the window, and x1 swings as before: nothing attracts |
+//! | limit cycle | a cycle solved for is stable by its multipliers, and the turning points are near it and come nearer |
 //! | limit cycle | the turning points repeat after some k <= [`Criteria::longest_cycle`] returns within [`Criteria::recurrence`] |
 //! | torus | the turning points spread more in the second half by the inverse of [`Criteria::shrinkage`]: still leaving an unstable limit cycle |
 //! | chaos | two motions [`Criteria::separation`] apart separate by more than e^[`Criteria::growth`] in the second half |
@@ -15,6 +18,9 @@
 //! While a motion leaves an unstable cycle, neighbours separate at that cycle's rate, which is no chaos of what it settles to: between the
 //! secondary Hopf point and xi1 = -0.05 the nominal rig spreads 2.7 to 8 times as far in the second half of 3500 time units; where it is chaotic
 //! the ratio was 0.88 to 1.11.
+//!
+//! A motion whose spread still changes can be followed further ([`DiagramPlan::extensions`](super::DiagramPlan)): the transient is then as long as all
+//! that was looked at before, and so is the window, until the spread is the same in both halves; where it never is, the motion has not settled.
 //!
 //! The numbers they were decided by are kept as [`Evidence`]. Linear growth of the separation, the fastest that a torus allows, is a
 //! factor 2 in the second half; tori of the nominal rig were measured to reach e^1.7 (Lyapunov exponents zero to 1e-8), the threshold
@@ -39,7 +45,27 @@ pub enum MotionClass {
     Torus,
     Chaos,
     Diverged,
+    /// Neither decays nor grows, without slip.
+    Neutral,
+    /// Still changing when the longest motion allowed was over.
+    NotSettled,
 }
+
+/// A limit cycle solved for at the parameters of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KnownCycle {
+    /// The state at its reversal, v1 = 0 and f = +1.
+    pub reversal: State,
+    /// Modulus of its leading multiplier over one return.
+    pub leading_multiplier: f64,
+}
+
+/// Distance of a turning point from a stable cycle, relative to its amplitude, within which the cycle may be what the motion settles to.
+const NEAR_CYCLE: f64 = 0.05;
+/// Relative difference of the spreads of both halves below which a motion is taken to have settled.
+const SAME_SPREAD: f64 = 0.05;
+/// Relative change of a swing without slip that counts as growth or decay.
+const STEADY_SWING: f64 = 1e-3;
 
 /// Thresholds of the classification; see the module.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -73,6 +99,16 @@ pub struct Evidence {
     pub separation_growth: Option<f64>,
     /// Spread of the turning points in the second half over that in the first.
     pub spread_ratio: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub decided_by: Option<Decision>,
+}
+
+/// What decided a class in place of the turning points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Decision {
+    /// Those of a cycle solved for, which the motion approaches.
+    Multipliers,
 }
 
 /// Class of a motion, with the range of its maxima.
@@ -94,6 +130,52 @@ pub fn classify<F: DenseFlow>(
     initial: &State,
     window: Window,
     criteria: &Criteria,
+) -> Result<Classification, ChaosError> {
+    classify_beside(flow, initial, window, criteria, None)
+}
+
+/// The same, followed further while the spread of the turning points changes, at most `extensions` times.
+pub(super) fn classify_settled<F: DenseFlow>(
+    flow: &F,
+    initial: &State,
+    window: Window,
+    criteria: &Criteria,
+    known: Option<&KnownCycle>,
+    extensions: usize,
+) -> Result<Classification, ChaosError> {
+    let mut window = window;
+    let mut found = classify_beside(flow, initial, window, criteria, known)?;
+    for _ in 0..extensions {
+        if !found.still_changes(criteria) {
+            return Ok(found);
+        }
+        window = Window { transient: window.end(), length: window.end() };
+        found = classify_beside(flow, initial, window, criteria, known)?;
+    }
+    if extensions > 0 && found.still_changes(criteria) {
+        found.class = MotionClass::NotSettled;
+    }
+    Ok(found)
+}
+
+impl Classification {
+    fn still_changes(&self, criteria: &Criteria) -> bool {
+        let spread = self.evidence.spread_ratio;
+        let changes = match self.class {
+            // In chaos the extremes of two halves differ by chance.
+            MotionClass::Chaos => spread.is_some_and(|ratio| ratio > 1.0 / criteria.shrinkage),
+            _ => spread.is_some_and(|ratio| (ratio - 1.0).abs() > SAME_SPREAD),
+        };
+        self.class == MotionClass::NotSettled || changes
+    }
+}
+
+fn classify_beside<F: DenseFlow>(
+    flow: &F,
+    initial: &State,
+    window: Window,
+    criteria: &Criteria,
+    known: Option<&KnownCycle>,
 ) -> Result<Classification, ChaosError> {
     let window = window.validated()?;
     let failed = |source| ChaosError::flow(flow.name(), source);
@@ -117,8 +199,13 @@ pub fn classify<F: DenseFlow>(
     evidence.slips = Some(slips);
     let half = turns.partition_point(|turn| turn.time < window.transient + 0.5 * window.length);
     let (early, late) = turns.split_at(half);
-    if slips == 0 && comes_to_rest(early, late, criteria.rest) {
-        return Ok(Classification { class: MotionClass::Equilibrium, amplitude_range, evidence });
+    if slips == 0 {
+        let class = without_slip(early, late, criteria.rest);
+        return Ok(Classification { class, amplitude_range, evidence });
+    }
+    if known.is_some_and(|cycle| approaches(cycle, early, late)) {
+        evidence.decided_by = Some(Decision::Multipliers);
+        return Ok(Classification { class: MotionClass::LimitCycle, amplitude_range, evidence });
     }
     if let Some((cycle, distance)) = recurrence(late, criteria.longest_cycle, criteria.recurrence) {
         (evidence.cycle, evidence.recurrence) = (Some(cycle), Some(distance));
@@ -141,13 +228,29 @@ pub fn classify<F: DenseFlow>(
     Ok(Classification { class, amplitude_range, evidence })
 }
 
+/// Whether the cycle attracts, and the motion comes nearer to it in the second half.
+fn approaches(cycle: &KnownCycle, early: &[TurningPoint], late: &[TurningPoint]) -> bool {
+    let farthest = |turns: &[TurningPoint]| {
+        turns.iter().map(|turn| turn.state.max_difference(&cycle.reversal)).fold(0.0, f64::max)
+    };
+    let near = NEAR_CYCLE * cycle.reversal.positions[0].abs();
+    let (before, after) = (farthest(early), farthest(late));
+    // At a distance of rounding it comes no nearer.
+    cycle.leading_multiplier < 1.0 && !late.is_empty() && after < near && (after < before || after < 1e-9)
+}
+
 /// Without slip the rest position need not be 0, so the swing is that between neighbouring turning points of either side.
-fn comes_to_rest(early: &[TurningPoint], late: &[TurningPoint], rest: f64) -> bool {
+fn without_slip(early: &[TurningPoint], late: &[TurningPoint], rest: f64) -> MotionClass {
     let swing = |turns: &[TurningPoint]| {
         let sum = |pair: &[TurningPoint]| pair.iter().map(|turn| turn.state.positions[0]).sum::<f64>().abs();
         turns.windows(2).map(sum).fold(0.0, f64::max)
     };
-    swing(late) < rest || swing(late) < 0.99 * swing(early)
+    match (swing(early), swing(late)) {
+        (_, late) if late < rest => MotionClass::Equilibrium,
+        (early, late) if late < (1.0 - STEADY_SWING) * early => MotionClass::Equilibrium,
+        (early, late) if late > (1.0 + STEADY_SWING) * early => MotionClass::NotSettled,
+        _ => MotionClass::Neutral,
+    }
 }
 
 /// The least number of returns after which the turning points repeat within `tolerance`, or else the one after which they

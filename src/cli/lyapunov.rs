@@ -1,6 +1,6 @@
 //! `lyapunov`: the spectrum of exponents with exact tangents.
 
-use super::analysis::{RigInput, beside_the_cycle, exact_flow, window};
+use super::analysis::{RigInput, Transient, beside_the_cycle, exact_flow, window};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
 use super::{Verdict, case_args::parse_initial};
@@ -11,18 +11,22 @@ use anyhow::Context;
 use clap::Args;
 use serde_json::{Value, json};
 
+const SHORTEST_TRANSIENT: f64 = 5000.0;
+/// Time averaged over unless told otherwise.
+const AVERAGED: f64 = 15_000.0;
+
 /// Lyapunov exponents of the exact motion with exact tangents.
 ///
 /// The direction that slip wipes out (exponent minus infinity) is not listed. Exponents are null where the motion diverges.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:\n  stickslip lyapunov --xi1 -0.155 --t-end 20000 --json")]
 pub struct LyapunovArgs {
-    /// End of the motion.
-    #[arg(long, default_value_t = 20_000.0, allow_hyphen_values = true)]
-    t_end: f64,
-    /// Length of its beginning that is not averaged over.
-    #[arg(long, default_value_t = 5000.0, allow_hyphen_values = true)]
-    transient: f64,
+    /// End of the motion; 15000 time units after the transient by default.
+    #[arg(long, allow_hyphen_values = true)]
+    t_end: Option<f64>,
+    /// Length of its beginning that is not averaged over; by default what the multipliers of the limit cycle say it takes to settle, at least 5000.
+    #[arg(long, allow_hyphen_values = true)]
+    transient: Option<f64>,
     /// Which perturbation of the limit cycle the motion starts with.
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -42,9 +46,11 @@ pub fn run(args: &LyapunovArgs) -> anyhow::Result<Verdict> {
     args.plot.check(args.common.force)?;
     let p = args.rig.parameters()?;
     let start = beside_the_cycle(p, args.initial, args.seed)?;
-    let plan = LyapunovPlan::new(window(args.transient, args.t_end)?);
+    let transient = Transient::of(p, args.transient, args.initial, SHORTEST_TRANSIENT);
+    let t_end = args.t_end.unwrap_or(transient.length + AVERAGED);
+    let plan = LyapunovPlan::new(window(transient.length, t_end)?);
     let outcome = lyapunov_spectrum(&exact_flow(p)?, &start, plan)
-        .with_context(|| format!("from --transient {} to --t-end {}", args.transient, args.t_end))?;
+        .with_context(|| format!("from --transient {} to --t-end {t_end}", transient.length))?;
     args.plot.draw(|| convergence(&outcome, p.xi1))?;
     if !args.common.json {
         print(&match &outcome {
@@ -57,13 +63,17 @@ pub fn run(args: &LyapunovArgs) -> anyhow::Result<Verdict> {
                 .collect::<Vec<_>>()
                 .join("\n"),
         })?;
+        transient.remark().map_or(Ok(()), |remark| print(&remark))?;
         return Ok(Verdict::Done);
     }
     let parameters = json!({
-        "xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "t_end": args.t_end, "transient": args.transient,
+        "xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "t_end": t_end,
+        "transient": transient.length,
         "seed": args.seed, "initial": start,
     });
-    let document = Document::new("lyapunov", parameters);
+    let document = Document::new("lyapunov", parameters)
+        .with("settled", json!(transient.settled()))
+        .with("settling_time", json!(transient.needed));
     let document = match outcome {
         LyapunovOutcome::Diverged { time, .. } => document
             .with("exponents", Value::Null)

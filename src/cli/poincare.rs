@@ -1,6 +1,6 @@
 //! `poincare`: points of the exact motion on a section.
 
-use super::analysis::{RigInput, beside_the_cycle, exact_flow, window};
+use super::analysis::{RigInput, Transient, beside_the_cycle, exact_flow, window};
 use super::common::{Common, Document, print};
 use super::plot::PlotArgs;
 use super::{Verdict, case_args::parse_initial, motions};
@@ -23,6 +23,10 @@ enum SectionName {
     Stroboscopic,
 }
 
+const SHORTEST_TRANSIENT: f64 = 5000.0;
+/// Time shown unless told otherwise.
+const SHOWN: f64 = 5000.0;
+
 /// Poincare section of the exact motion.
 ///
 /// Beside the points: the rotation number of the torus, where the motion winds round one, and on the slow section, from 200 points on, the 0-1
@@ -32,12 +36,12 @@ enum SectionName {
 pub struct PoincareArgs {
     #[arg(long, value_enum, default_value_t = SectionName::Fast)]
     section: SectionName,
-    /// End of the motion.
-    #[arg(long, default_value_t = 10_000.0, allow_hyphen_values = true)]
-    t_end: f64,
-    /// Length of its beginning that is left out.
-    #[arg(long, default_value_t = 5000.0, allow_hyphen_values = true)]
-    transient: f64,
+    /// End of the motion; 5000 time units after the transient by default.
+    #[arg(long, allow_hyphen_values = true)]
+    t_end: Option<f64>,
+    /// Length of its beginning that is left out; by default what the multipliers of the limit cycle say it takes to settle, at least 5000.
+    #[arg(long, allow_hyphen_values = true)]
+    transient: Option<f64>,
     /// Start here instead of beside the limit cycle.
     #[arg(long, value_name = "x1,x2,v1,v2,f", allow_hyphen_values = true, value_parser = parse_initial)]
     initial: Option<Initial>,
@@ -60,14 +64,16 @@ pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
             ("stroboscopic", PoincareSection::Stroboscopic { period: motions::exact_limit_cycle(p)?.period })
         }
     };
+    let transient = Transient::of(p, args.transient, args.initial, SHORTEST_TRANSIENT);
+    let t_end = args.t_end.unwrap_or(transient.length + SHOWN);
     let parameters = json!({
-        "xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "section": section, "t_end": args.t_end,
-        "transient": args.transient, "initial": start,
+        "xi1": p.xi1, "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "section": section, "t_end": t_end,
+        "transient": transient.length, "initial": start,
     });
     if let Some(path) = &args.common.output {
         super::simulate::refuse_to_overwrite(path, &parameters, args.common.force)?;
     }
-    let (flow, window) = (exact_flow(p)?, window(args.transient, args.t_end)?);
+    let (flow, window) = (exact_flow(p)?, window(transient.length, t_end)?);
     let map = poincare_map(&flow, &start, window, section)?;
     let rotation = where_defined(torus_rotation(&flow, &start, window))?;
     let zero_one = match map.column("a1_deviation") {
@@ -93,6 +99,8 @@ pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
             .with("points", json!(map.points))
             .with("rotation", json!(rotation))
             .with("zero_one", json!(zero_one))
+            .with("settled", json!(transient.settled()))
+            .with("settling_time", json!(transient.needed))
             .with("diverged", json!(matches!(map.outcome, Outcome::Diverged { .. })));
         return print(&document.text()?).map(|()| Verdict::Done);
     }
@@ -105,6 +113,7 @@ pub fn run(args: &PoincareArgs) -> anyhow::Result<Verdict> {
     if let Some(indicator) = zero_one {
         print(&format!("0-1 test: {indicator:.3}"))?;
     }
+    transient.remark().map_or(Ok(()), |remark| print(&remark))?;
     Ok(Verdict::Done)
 }
 

@@ -70,6 +70,8 @@ fn class_name(class: MotionClass) -> &'static str {
         MotionClass::Torus => "torus",
         MotionClass::Chaos => "chaos",
         MotionClass::Diverged => "diverged",
+        MotionClass::Neutral => "neutral",
+        MotionClass::NotSettled => "not settled",
     }
 }
 

@@ -11,7 +11,7 @@ use super::plot::PlotArgs;
 use super::slow_flow::Energy;
 use super::{Verdict, motions};
 use crate::averaging::{EnergyFrequency, Interpolation};
-use crate::chaos::{DiagramPlan, DiagramRow, divergence_edge};
+use crate::chaos::{ChaosError, DiagramPlan, DiagramRow, divergence_edge};
 use crate::dynamics::Sampling;
 use crate::engine::EngineSettings;
 use crate::model::RigParameters;
@@ -20,17 +20,24 @@ use crate::store::{Column, ColumnData, Table, write_table};
 use anyhow::ensure;
 use clap::Args;
 pub use motion::prepare;
-use motion::{ENGINE_STEPS, Solver, in_engine, slow_flow, start};
+use motion::{ENGINE_STEPS, Solver, in_engine, known_cycle, slow_flow, start};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 const MOST_VALUES: usize = 1_000_000;
+/// How often an exact motion that has not settled is followed further, twice as long each time: 80 000 time units in place of 5000.
+const EXTENSIONS: usize = 4;
 
 /// Amplitude diagram over xi1.
 ///
 /// Each motion starts on the limit cycle with x2 moved by 0.001; where there is no cycle, at 1.2,0.9,0,-0.5,1. With -o, finished rows are
 /// saved as they come, and an interrupted diagram goes on where it was.
+///
+/// An exact motion that still changes at the end is followed further, up to 16 times as long; one that has not settled then says so
+/// (not_settled). Near a limit cycle that attracts by its multipliers the motion is a limit cycle. Without slip a motion that neither grows nor
+/// decays is neutral. A value that fails is a row that says why (not_computed), and the exit status is 1. Motions of the slow flow and the engine
+/// are not followed further: their classes hold for the time looked at.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  stickslip diagram --from 0 --to -0.2 --count 200 -o diagram.csv\n  \
     stickslip diagram --with slow-flow --from 0 --to -0.17 --count 341 --plot slow.svg\n  \
@@ -88,7 +95,11 @@ pub fn run(args: &DiagramArgs) -> anyhow::Result<Verdict> {
     let case = args.case()?;
     let p = case.parameters;
     let engine = args.engine_settings(&case);
-    let plan = DiagramPlan { window: window(args.transient, args.t_end)?, criteria: args.solver.criteria(&engine) };
+    let plan = DiagramPlan {
+        window: window(args.transient, args.t_end)?,
+        criteria: args.solver.criteria(&engine),
+        extensions: if args.solver == Solver::Exact { EXTENSIONS } else { 0 },
+    };
     let mut parameters = json!({
         "xi2": p.xi2, "kappa": p.kappa, "gamma": p.gamma, "from": args.from, "to": args.to, "count": args.count,
         "plan": plan, "with": args.solver.word(),
@@ -104,35 +115,48 @@ pub fn run(args: &DiagramArgs) -> anyhow::Result<Verdict> {
     }
     let at = |xi1| RigParameters { xi1, ..p };
     let rows = match args.solver {
-        Solver::Exact => saved::rows(args, &plan, &parameters, |xi1| prepare(at(xi1))),
+        Solver::Exact => saved::rows(args, &plan, &parameters, |xi1| prepare(at(xi1)), |xi1| known_cycle(at(xi1))),
         Solver::SlowFlow => {
             let energy = args.energy.unwrap_or_default().definition();
             let frequency = Arc::new(EnergyFrequency::new(p, energy, Interpolation::Converged)?);
-            saved::rows(args, &plan, &parameters, |xi1| Ok(slow_flow(at(xi1), &frequency)?))
+            saved::rows(args, &plan, &parameters, |xi1| Ok(slow_flow(at(xi1), &frequency)?), |_| None)
         }
         Solver::Rapier => {
-            saved::rows(args, &plan, &parameters, |xi1| Ok((in_engine(at(xi1), engine)?, start(at(xi1))?)))
+            saved::rows(args, &plan, &parameters, |xi1| Ok((in_engine(at(xi1), engine)?, start(at(xi1))?)), |_| None)
         }
     }?;
+    let done: Vec<DiagramRow> = rows.iter().filter_map(|(_, row)| row.as_ref().ok().copied()).collect();
+    let verdict = if done.len() < rows.len() { Verdict::Failed } else { Verdict::Done };
     if let Some(path) = &args.common.output {
         write_table(path, &table(&rows, &parameters))?;
     }
-    args.plot.draw(|| Ok(picture::chart(&rows)))?;
-    let edge = divergence_edge(&rows);
+    args.plot.draw(|| Ok(picture::chart(&done)))?;
     if args.common.json {
-        let rows: Vec<Value> = rows
-            .iter()
-            .map(|row| json!({"xi1": row.value, "a1_max": row.a1_max, "a1_min": row.a1_min, "outcome": row.outcome, "evidence": row.evidence}))
-            .collect();
+        let edge = divergence_edge(&done);
+        let rows: Vec<Value> = rows.iter().map(json_of).collect();
         let document = Document::new("diagram", parameters).with("rows", json!(rows)).with("divergence", json!(edge));
-        return print(&document.text()?).map(|()| Verdict::Done);
+        return print(&document.text()?).map(|()| verdict);
     }
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6}"));
     print("xi1          a1_max       a1_min       outcome")?;
-    for row in &rows {
-        print(&format!("{:<12.6} {:<12} {:<12} {}", row.value, number(row.a1_max), number(row.a1_min), word(row)))?;
+    for (value, row) in &rows {
+        let range = row.as_ref().map_or((None, None), |row| (row.a1_max, row.a1_min));
+        let reason = row.as_ref().err().map_or_else(String::new, |error| format!(": {error}"));
+        print(&format!("{value:<12.6} {:<12} {:<12} {}{reason}", number(range.0), number(range.1), word(row)))?;
     }
-    Ok(Verdict::Done)
+    Ok(verdict)
+}
+
+/// A row of the document. What could not be computed says why.
+fn json_of((value, row): &(f64, Result<DiagramRow, ChaosError>)) -> Value {
+    match row {
+        Ok(row) => json!({
+            "xi1": value, "a1_max": row.a1_max, "a1_min": row.a1_min, "outcome": row.outcome, "evidence": row.evidence,
+        }),
+        Err(error) => json!({
+            "xi1": value, "a1_max": null, "a1_min": null, "outcome": word(row), "error": error.to_string(),
+        }),
+    }
 }
 
 impl DiagramArgs {
@@ -152,11 +176,17 @@ impl DiagramArgs {
     }
 }
 
-fn word(row: &DiagramRow) -> String {
-    json!(row.outcome).as_str().unwrap_or_default().to_owned()
+fn word(row: &Result<DiagramRow, ChaosError>) -> String {
+    match row {
+        Ok(row) => json!(row.outcome).as_str().unwrap_or_default().to_owned(),
+        Err(_) => "not_computed".to_owned(),
+    }
 }
 
-fn table(rows: &[DiagramRow], parameters: &Value) -> Table {
+fn table(rows: &[(f64, Result<DiagramRow, ChaosError>)], parameters: &Value) -> Table {
+    let of = |part: fn(&DiagramRow) -> Option<f64>| {
+        ColumnData::OptionalF64(rows.iter().map(|(_, row)| row.as_ref().ok().and_then(part)).collect())
+    };
     let column = |name: &str, unit: &str, values| Column { name: name.to_owned(), unit: unit.to_owned(), values };
     Table {
         metadata: vec![
@@ -164,10 +194,10 @@ fn table(rows: &[DiagramRow], parameters: &Value) -> Table {
             ("parameters".to_owned(), parameters.to_string()),
         ],
         columns: vec![
-            column("xi1", "1", ColumnData::F64(rows.iter().map(|row| row.value).collect())),
-            column("a1_max", "1", ColumnData::OptionalF64(rows.iter().map(|row| row.a1_max).collect())),
-            column("a1_min", "1", ColumnData::OptionalF64(rows.iter().map(|row| row.a1_min).collect())),
-            column("outcome", "", ColumnData::Text(rows.iter().map(word).collect())),
+            column("xi1", "1", ColumnData::F64(rows.iter().map(|(value, _)| *value).collect())),
+            column("a1_max", "1", of(|row| row.a1_max)),
+            column("a1_min", "1", of(|row| row.a1_min)),
+            column("outcome", "", ColumnData::Text(rows.iter().map(|(_, row)| word(row)).collect())),
         ],
     }
 }

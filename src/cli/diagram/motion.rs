@@ -3,7 +3,7 @@
 use super::super::analysis::exact_flow;
 use super::super::motions;
 use crate::averaging::{AveragingError, EnergyFrequency, RestoredSlowFlow};
-use crate::chaos::Criteria;
+use crate::chaos::{Criteria, KnownCycle};
 use crate::dynamics::{Sampled, State};
 use crate::engine::{EngineError, EngineFlow, EngineSettings};
 use crate::exact::TwoMassFlow;
@@ -70,7 +70,9 @@ pub fn start(p: RigParameters) -> Result<State, OrbitError> {
             state.positions[1] += 0.001;
             Ok(state)
         }
-        Err(OrbitError::NoGuess { .. } | OrbitError::BeyondFold { .. }) => Ok(State::two_mass(ELSEWHERE)),
+        Err(OrbitError::NoGuess { .. } | OrbitError::BeyondFold { .. } | OrbitError::Unbounded { .. }) => {
+            Ok(State::two_mass(ELSEWHERE))
+        }
         Err(error) => Err(error),
     }
 }
@@ -96,6 +98,12 @@ pub fn in_engine(p: RigParameters, settings: EngineSettings) -> Result<Sampled<E
     let flow = EngineFlow::new(TwoMassRig::new(p)?.chain(), settings)?;
     let steps = (TAU / ENGINE_SAMPLES / settings.step).round().max(1.0);
     Ok(Sampled::new(flow, steps * settings.step)?)
+}
+
+/// The exact limit cycle, where there is one: its multipliers decide what motions near it settle to.
+pub fn known_cycle(p: RigParameters) -> Option<KnownCycle> {
+    let orbit = motions::exact_limit_cycle(p).ok()?;
+    Some(KnownCycle { reversal: orbit.reversal(), leading_multiplier: orbit.section_multipliers()[0].norm() })
 }
 
 /// The exact flow, and where its motion starts.

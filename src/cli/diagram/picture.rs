@@ -10,6 +10,8 @@ pub fn chart(rows: &[DiagramRow]) -> Chart {
         ("limit cycle", MotionClass::LimitCycle, Tint::Green),
         ("torus", MotionClass::Torus, Tint::Blue),
         ("chaos", MotionClass::Chaos, Tint::Vermillion),
+        ("neutral", MotionClass::Neutral, Tint::Purple),
+        ("not settled", MotionClass::NotSettled, Tint::Orange),
     ];
     let series = classes.into_iter().filter_map(|(label, class, tint)| {
         let of_class = rows.iter().filter(|row| row.outcome == class);

@@ -3,7 +3,7 @@
 use super::super::progress::Heartbeat;
 use super::DiagramArgs;
 use super::motion::Unprepared;
-use crate::chaos::{DiagramPlan, DiagramRow, amplitude_diagram};
+use crate::chaos::{ChaosError, DiagramPlan, DiagramRow, KnownCycle, every_row};
 use crate::dynamics::{DenseFlow, State};
 use crate::store::{read_whole, write_atomically};
 use anyhow::Context;
@@ -19,14 +19,15 @@ pub fn rows<F: DenseFlow>(
     plan: &DiagramPlan,
     parameters: &Value,
     prepare: impl Fn(f64) -> Result<(F, State), Unprepared> + Sync,
-) -> anyhow::Result<Vec<DiagramRow>> {
+    cycle: impl Fn(f64) -> Option<KnownCycle> + Sync,
+) -> anyhow::Result<Vec<(f64, Result<DiagramRow, ChaosError>)>> {
     let part = |n: usize| n as f64 / (args.count - 1) as f64;
     let values: Vec<f64> = (0..args.count).map(|n| args.from + (args.to - args.from) * part(n)).collect();
     let saved = args.common.output.as_deref().map(|path| Saved::open(path, parameters)).transpose()?;
     let finished = saved.as_ref().map(|saved| saved.rows.clone()).unwrap_or_default();
     let heartbeat = Heartbeat::new(args.common.quiet, "diagram", "values");
     let recorder = Mutex::new((saved, Instant::now()));
-    let rows = amplitude_diagram(&values, plan, &finished, prepare, |row, done, all| {
+    let rows = every_row(&values, plan, &finished, prepare, cycle, |row, done, all| {
         heartbeat.at(done, all);
         let mut recorder = recorder.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let (Some(saved), last) = &mut *recorder else { return };
@@ -38,12 +39,12 @@ pub fn rows<F: DenseFlow>(
             }
             *last = Instant::now();
         }
-    })?;
+    });
     let saved = recorder.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).0;
     if let Some(saved) = saved {
         saved.discard();
     }
-    Ok(rows)
+    Ok(values.into_iter().zip(rows).collect())
 }
 
 /// Rows of an unfinished diagram, beside its output.

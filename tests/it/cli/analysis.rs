@@ -105,3 +105,63 @@ fn poincare_tells_how_the_torus_turns_and_whether_it_is_one() {
     let cycle = document(&["poincare", "--xi1=-0.02", "--t-end=20000", "--transient=19000", "--json"]);
     assert!(cycle["zero_one"].is_null());
 }
+
+/// Multipliers, divergence and neutrality were computed outside the project: shooting, and an event-driven flow with matrix exponentials.
+#[test]
+fn classes_of_motions_that_settle_slowly_are_not_guessed() {
+    let outcomes = |args: &[&str]| {
+        let json = document(&[&["diagram", "--json"], args].concat());
+        json["rows"].as_array().unwrap().iter().map(|row| row["outcome"].clone()).collect::<Vec<_>>()
+    };
+    // Beyond the fold at -0.01275 there is no cycle; next to it motions linger for 20 000 time units.
+    assert_eq!(outcomes(&["--kappa=0.01", "--from=-0.013", "--to=-0.017", "--count=5"]), ["diverged"; 5]);
+    // Half-period multipliers 0.99991 and 0.99995: stable, settled after 10^5 time units.
+    assert_eq!(outcomes(&["--gamma=0.8", "--from=-0.06", "--to=-0.07", "--count=2"]), ["limit_cycle"; 2]);
+    // The in-phase mode without damping swings below the slip limit for ever.
+    assert_eq!(outcomes(&["--from=0", "--to=-0.0001", "--count=2"]), ["neutral", "limit_cycle"]);
+    // Strong damping: a1 = 1.32404823.
+    let damped = document(&["diagram", "--xi2=20", "--from=-0.06", "--to=-0.07", "--count=2", "--json"]);
+    assert!((damped["rows"][0]["a1_max"].as_f64().unwrap() - 1.32404823).abs() < 1e-6, "{damped}");
+}
+
+#[test]
+fn transients_follow_from_the_multipliers_or_the_result_says_that_it_has_not_settled() {
+    // From weighted Birkhoff averages and from the torus solved for, outside the project.
+    let rotation = document(&["poincare", "--xi1=-0.04", "--json"]);
+    let number = |name: &str| rotation["rotation"][name].as_f64().unwrap();
+    let off = (number("rotation_number") - 0.230034109111023).abs();
+    assert!(off <= number("rotation_error") && number("rotation_error") < 1e-8, "{off:e} {rotation}");
+    assert_eq!(rotation["settled"], true);
+    // The start beside the unstable cycle has not left it: the exponent of what it settles to is 0.
+    let early = document(&["lyapunov", "--t-end=2000", "--transient=200", "--json"]);
+    assert_eq!(early["settled"], false);
+    assert!(early["exponents"][0].as_f64().unwrap() > 3.0 * early["standard_errors"][0].as_f64().unwrap(), "no case");
+    let settled = document(&["lyapunov", "--json"]);
+    assert_eq!(settled["settled"], true);
+    let [exponent, error] = ["exponents", "standard_errors"].map(|name| settled[name][0].as_f64().unwrap());
+    assert!(exponent.abs() < 3.0 * error && error < 1e-3, "{exponent} {error}");
+    let unknown = document(&["lyapunov", "--initial=1.2,0.9,0,-0.5,1", "--t-end=6000", "--json"]);
+    assert!(unknown["settled"].is_null());
+}
+
+#[test]
+fn an_option_without_effect_is_refused_and_rows_that_fail_are_kept() {
+    refused(&["hopf", "--xi1=0.5"], &["--xi1", "no effect"]);
+    refused(&["branch", "--xi1=7"], &["--xi1", "no effect"]);
+    let rows = document(&["hopf", "--vary", "kappa=0.01:0.25:7", "--json"]);
+    let rows = rows["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 7);
+    // Outside the project: no Hopf point at kappa = 0.01, a fold at -0.012751689256; there the branch runs to infinity.
+    assert!(rows[0]["secondary_hopf"].as_array().unwrap().is_empty());
+    assert!((rows[0]["fold"]["xi1"].as_f64().unwrap() + 0.012751689256).abs() < 1e-11);
+    assert!(rows[0]["searched"]["end"].as_str().unwrap().contains("infinity"));
+    refused(
+        &["orbit", "--kappa=0.0524", "--xi2=0.0966", "--gamma=0.862", "--xi1=-0.125"],
+        &["infinity near xi1 = -0.12"],
+    );
+    refused(&["orbit", "--xi1=-0.01", "--upper"], &["amplitude 50", "larger"]);
+    let other = document(&["orbit", "--xi1=-0.001", "--xi2=-0.01", "--mode=out-of-phase", "--json"]);
+    assert!((other["section"]["x2"].as_f64().unwrap() + 1.0701160).abs() < 1e-7);
+    let first = document(&["orbit", "--xi1=-0.001", "--xi2=-0.01", "--json"]);
+    assert!(first["not_searched"].as_str().unwrap().contains("--mode out-of-phase"));
+}
